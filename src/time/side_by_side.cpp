@@ -32,7 +32,10 @@ std::vector<Failure> advance_together(std::span<const Passage> passages)
         continue;
       }
       for (long i = 0; i < one.count; ++i) {
-        one.flow->advance(one.first + i, *one.state);
+        if (one.is_beside)
+          one.flow->advance_beside(one.first + i, *one.state);
+        else
+          one.flow->advance(one.first + i, *one.state);
         if (one.path) one.path->push_back(*one.state);
       }
     } catch (const NoSolution&) {

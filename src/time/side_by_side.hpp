@@ -26,6 +26,7 @@ struct Passage {
   State* state;
   long count = 1;
   std::vector<State>* path = nullptr;  ///< gets the state after each interval
+  bool is_beside = false;  ///< with the steps of the passage before it, of one interval
 };
 
 /** What stopped one of several passages. */
