@@ -319,6 +319,48 @@ class Measures(Case):
                 self.assertAlmostEqual(values[0] / right[0], 1, delta=1e-3)
                 np.testing.assert_allclose(values, right, rtol=2e-3)
 
+    def test_accelerations_of_a_slow_motion(self):
+        """A base period of seven turns at 3 Hz holds 2,800 vibrations of the contact, far
+        more than the rows: Eq. 7 has the accelerations at every row, and measures of them
+        are the same in every command, however few rows are asked for."""
+        text = """title = "seven turns"
+[stator]
+mass_kg = 20
+natural_frequency_rad_per_s = 500
+damping_ratio = 0.05
+[rotor]
+mass_kg = 40
+natural_frequency_rad_per_s = 150
+damping_ratio = 0.02
+unbalance_kg_m = 0.05
+[bearing]
+balls = 9
+contact_stiffness_N_per_m1p5 = 1e11
+radial_clearance_m = 2e-05
+cage_speed_ratio = 0.3492063492063492
+[gravity]
+acceleration_m_per_s2 = 9.81
+"""
+        own = self.file("seven.toml", text)
+        names = ["rms_a_y_s", "peak_a_y_s", "iso_y_s"]
+        table = self.table("orbit", own, "--frequency", 3, "--columns",
+                           ",".join(["y_s", "v_y_s", "F_y", "a_y_s", *names]))
+        right = (table["F_y"] / 20 - 2 * 0.05 * 500 * table["v_y_s"] - 500**2 * table["y_s"] - 9.81)
+        largest = table["peak_a_y_s"][0]
+        self.assertLess(abs(table["a_y_s"] - right).max(), 1e-3 * largest)
+        self.assertGreater(largest, 1.1 * abs(right).max())  # between the rows
+        for command, how in commands_at(3):
+            with self.subTest(command=command):
+                np.testing.assert_allclose(self.measured(own, command, how, names),
+                                           [table[name][0] for name in names], rtol=1e-3)
+
+    def test_iso_at_its_lower_end(self):
+        """A line at 10 Hz belongs to the band, though the window of an open record spreads
+        it over both sides."""
+        own = self.file("light.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.38123"))
+        iso, rms = self.measured(own, ["orbit", "--frequency", 10], "--columns", ["iso_x_r", "amp_1X_x_r"])
+        self.assertGreater(iso, 0.999e3 * 2 * math.pi * 10 * rms / math.sqrt(2))
+
 
 class Speeds(Case):
     def test_units(self):

@@ -32,11 +32,12 @@ constexpr std::array<What, 8> whats{
 constexpr std::array<What, 3> rates{
     {{"", "m", ""}, {"v_", "m/s", "velocity of "}, {"a_", "m/s^2", "acceleration of "}}};
 
+constexpr int order = 8;  // of the differences
+
 /** The rate of change at all instants, by the polynomial through nine of them, in whose
     middle an instant stands where it can. */
 Eigen::VectorXd rate_of(const Eigen::VectorXd& x, double step, bool is_closed)
 {
-  constexpr int order = 8;
   const Eigen::Index n = x.size();
   if (n <= order) throw NoSolution("velocities need at least nine instants: --points");
   /** Row j: weights of the nine at the j-th of them, from b_i = (-1)^i C(8, i). */
@@ -98,10 +99,13 @@ double rms_between(const Eigen::VectorXd& x, const Record& record, double low,
   FourierTransform transform(n);
   const Eigen::VectorXd centred = (x.array() - x.mean()) * window.array();
   const auto lines = transform.spectrum(centred);
+  /** Hann's window spreads a line over two to either side. */
+  const double resolution = 1 / (n * record.step),
+               beyond = (record.is_closed ? 1e-6 : 2) * resolution;
   double square = 0;
   for (Eigen::Index p = 1; p < lines.size(); ++p) {
-    const double f = static_cast<double>(p) / (n * record.step);
-    if (f >= low && f <= high) square += 2 * std::norm(lines[p]);
+    const double f = static_cast<double>(p) * resolution;
+    if (f >= low - beyond && f <= high + beyond) square += 2 * std::norm(lines[p]);
   }
   return std::sqrt(square / window.array().square().mean());
 }
@@ -123,8 +127,12 @@ double value_of(const std::string& what, const Eigen::VectorXd& x, const Record&
   const double mean = x.mean();
   if (what == "mean_") return mean;
   if (what == "amp_" || what == "peak_") {
-    const double up = largest_of(x.array() - mean, record.is_closed),
-                 down = largest_of(mean - x.array(), record.is_closed);
+    /** Rates are worst at the ends of a record. */
+    const Eigen::Index ends =
+        record.is_closed ? 0 : std::min<Eigen::Index>(2 * order, x.size() / 4);
+    const Eigen::ArrayXd inner = x.segment(ends, x.size() - 2 * ends);
+    const double up = largest_of(inner - mean, record.is_closed),
+                 down = largest_of(mean - inner, record.is_closed);
     return what == "amp_" ? 0.5 * (up + down) : std::max(up, down);
   }
   if (what == "rms_") return std::sqrt((x.array() - mean).square().mean());
@@ -196,15 +204,25 @@ std::vector<std::vector<double>> Measures::at_instants(const Record& record) con
   return columns;
 }
 
+Recording recording_for_rates(const Parameters& machine, double omega, int points)
+{
+  constexpr double each = 16;   // of a vibration of the contact
+  constexpr double most = 3e7;  // numbers that are kept
+  constexpr int least_periods = 16;
+  const auto numbers =
+      8 + static_cast<double>(machine.bodies->state_scales(machine).size());
+  const double needed = each * contact_frequency(machine) / omega;
+  while (points < needed && 2 * points * numbers * least_periods <= most) points *= 2;
+  return {points, std::clamp(static_cast<int>(most / numbers / points), least_periods,
+                             Measures::open_periods)};
+}
+
 motion::Answer whole_motion(motion::Answer answer, motion::Request request,
                             const OperationBudget& budget)
 {
-  /** Sixteen instants of a vibration of the contact, and few enough for the memory. */
-  const double needed = 16 * contact_frequency(answer.machine) / answer.omega;
-  const bool is_fast = answer.machine.bodies->takes_explicit_steps();
-  request.points = 256;
-  while (is_fast && request.points < std::min(needed, 2048.0)) request.points *= 2;
-  request.periods = Measures::open_periods;
+  const auto [points, periods] = recording_for_rates(answer.machine, answer.omega, 256);
+  request.points = points;
+  request.periods = periods;
   request.is_measured = false;
   complete(answer, request, budget);
   return answer;

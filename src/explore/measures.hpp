@@ -7,9 +7,10 @@ peak-to-peak), `peak` (the largest distance from the mean), `mean`, `rms` (about
 mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso` (rms of the
 velocity in mm/s from 10 to 1000 Hz, ISO 20816). Without WHAT the value at each instant.
 
-All are taken from one record at equal instants: K base periods of a motion that closes,
-256 of another one, under Hann's window where lines are asked for. Rates are central
-differences of order 8.
+All are taken from one record at equal instants, sixteen in a vibration of the contact: K
+base periods of a motion that closes, 256 of another one (fewer where these would not fit
+into memory), under Hann's window where lines are asked for. Rates are differences of
+order 8.
 
     const Measures measures(request.columns, machine);
     const std::vector<double> row = measures.of({motion, step, rotor_hertz, closes}); */
@@ -27,6 +28,14 @@ struct Record {
   double step, speed;
   bool is_closed;
 };
+
+/** How a motion is recorded for them: P, and base periods where it does not close. */
+struct Recording {
+  int points, periods;
+};
+
+/** P is `points` times a power of two. */
+Recording recording_for_rates(const Parameters& machine, double omega, int points);
 
 class Measures {
 public:
@@ -69,7 +78,7 @@ Measures add_measures(std::vector<Field<Row>>& fields, const std::string& names,
   return measures;
 }
 
-/** The motion of an answer, recorded as finely as its contact vibrates. */
+/** The motion of an answer, recorded so. */
 motion::Answer whole_motion(motion::Answer answer, motion::Request request,
                             const OperationBudget& budget);
 

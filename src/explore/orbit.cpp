@@ -345,12 +345,19 @@ Exploration explore_orbit(const MotionRequest& request)
                   : format("Orbit of rotor and stator over %d periods", request.periods),
               columns);
   table.choose(request.columns, usual, request.plot.has_value());
-  const int recorded = measures.needs_whole() ? Measures::open_periods : request.periods;
-  const Computed at =
-      computed(parameters, request, std::max(recorded, request.periods), table);
+  const BasePeriod base = base_period(parameters);
+  MotionRequest finer = request;
+  int recorded = request.periods;
+  if (!measures.empty()) {
+    const auto [machine, omega] = over(base, parameters, angular(request.frequency));
+    const auto [points, periods] = recording_for_rates(machine, omega, request.points);
+    finer.points = points;
+    if (measures.needs_whole()) recorded = std::max(recorded, periods);
+    if (base.is_driven_twice()) finer.periods = recorded;
+  }
+  const Computed at = computed(parameters, finer, recorded, table);
   const motion::Motion& motion = at.found.motion;
   /** Of two frequencies harmonic balance prints a record. */
-  const BasePeriod base = base_period(parameters);
   const bool closes = at.found.closes_after > 0 &&
                       (!is_periodic(request.method) || !base.is_driven_twice());
   const auto measured = measures.at_instants(
@@ -363,8 +370,9 @@ Exploration explore_orbit(const MotionRequest& request)
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
       request.points;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const std::size_t same = k % motion.size();
+  const auto each = static_cast<std::size_t>(finer.points / request.points);
+  for (std::size_t row_at = 0; row_at < rows; ++row_at) {
+    const std::size_t k = each * row_at, same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
     const double periods = at.found.base_periods * motion.t_over_period(k);
     std::vector<Cell> row{2 * std::numbers::pi * periods, stator.x, stator.y, rotor.x,

@@ -326,12 +326,13 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
   row.harmonics = harmonics_of(task_, motion.bodies);
   const Measures& measures = columns_.measures;
   if (has_further_)
-    observe(row, task_.parameters,
-            task_.has_two_frequencies
-                ? motion::motion_of(task_.parameters, motion, 128,
-                                    measures.empty() ? 64 : Measures::open_periods)
-                : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)),
-            motion.omega, !task_.has_two_frequencies, measures);
+    observe(
+        row, task_.parameters,
+        task_.has_two_frequencies
+            ? motion::motion_of(task_.parameters, motion, measures.empty() ? 128 : 512,
+                                measures.empty() ? 64 : Measures::open_periods)
+            : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)),
+        motion.omega, !task_.has_two_frequencies, measures);
   table_.row(columns_.fields, row);
   if (!has_lines) return;
   auto found = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
