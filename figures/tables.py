@@ -116,7 +116,7 @@ class Table:
 
     def speeds(self):
         """The speeds as the figure's axis shows them, the factor from Hz, and its name: in rpm after --rpm."""
-        factor, unit = (60, "rpm") if self.value("speed_unit", "Hz") == "rpm" else (1, "Hz")
+        factor, unit = (60, "rpm") if self.value("speed_axis", "Hz") == "rpm" else (1, "Hz")
         return factor * self["f"], factor, f"speed of rotation [{unit}]"
 
     def speed_in_words(self):

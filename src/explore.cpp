@@ -64,7 +64,7 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
   require_files(asked);
   if (asked.plot) require_plot(*asked.plot, script);
   Exploration found = found_by(asked, explored);
-  if (asked.rpm) found.table.value("speed_unit", "rpm");
+  if (asked.rpm) found.table.value("speed_axis", "rpm");
   std::vector<std::string> missing{found.unfinished};
   for (const NamedContent& file : found.files) try {
       write_files({file});

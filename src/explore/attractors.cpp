@@ -357,7 +357,7 @@ std::string section_text(const Task& task, const std::vector<Found>& all)
                {"lyapunov", "1/base period", "of the motion"},
                {"lyapunov_uncertainty", "1/base period", ""}});
   describe(table, task.machine);
-  if (task.request.rpm) table.value("speed_unit", "rpm");
+  if (task.request.rpm) table.value("speed_axis", "rpm");
   table.note(format("points: K of a motion that closes, %d of another", section_points));
   for (const Found& found : all) {
     const motion::Motion& motion = found.answer.motion;

@@ -37,12 +37,10 @@ void put_verdict(Table& table, const Parameters& parameters, const motion::Verdi
                "is %.2g %%; more harmonics or --tolerance help",
                100 * verdict.distance.rms));
   const Settled& there = verdict.from_there;
-  if (!verdict.stable())
+  if (!verdict.found())
     put_regime(table, there.period, word(there.kind), there.reason);
-  else if (verdict.moves)
-    put_regime(table, turns);
   else
-    put_regime(table, 0, word(Kind::rest));
+    put_regime(table, verdict.moves ? turns : 0, word(Kind::rest));
   if (there.seconds > 0) {
     table.value("regime_from_there", word(there.kind));
     if (there.period > 0) table.value("period_from_there", there.period);

@@ -233,10 +233,14 @@ Exploration explore_map(const MapRequest& request)
   const std::size_t first = output.next();
   in_parallel(request.quiet ? "" : "parts of the map", output.pieces() - first,
               [&](std::size_t piece) { output.add(first + piece); });
-  if (output.failed() > 0)
-    std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
-                 output.failed(), output.rows());
-  return {.table = header, .drawn = output.all(), .is_written = true};
+  const std::string failed = format("%zu of %zu points have no result: see their status",
+                                    output.failed(), output.rows());
+  const bool is_empty = output.failed() == output.rows();
+  if (output.failed() > 0 && !is_empty) std::fprintf(stderr, "%s\n", failed.c_str());
+  return {.table = header,
+          .unfinished = is_empty ? request.parameter_file + ": " + failed : "",
+          .drawn = output.all(),
+          .is_written = true};
 }
 
 }  // namespace rotor_stator::explore

@@ -245,8 +245,10 @@ private:
   void require_period() const
   {
     if (base_.is_driven_twice())
-      throw NoSolution(format("%.9g balls pass in a turn, not a whole number",
-                              passages_per_turn(machine_.bearing)));
+      throw NoSolution(
+          format("two frequencies drive, %.9g balls pass in a turn: without "
+                 "--harmonics and --tolerance there are amplitudes",
+                 passages_per_turn(machine_.bearing)));
   }
 
   PeriodicMotion with_fixed_harmonics() const
@@ -403,8 +405,11 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
     throw BadInput("--frequency: the quantities asked for are those of --sweep");
   if (request.method != "aft" && !(balanced + swept).empty())
     throw BadInput("--method " + request.method + ": " +
-                   (balanced.empty() ? swept : balanced) +
-                   " is of harmonic balance; give --harmonics M");
+                   (balanced.empty() ? swept : balanced) + " is of harmonic balance; " +
+                   (base_period(first()).is_driven_twice()
+                        ? "a map has none where two frequencies drive; response has "
+                          "amplitudes over speeds"
+                        : "give --harmonics M"));
   const Parameters machine = first();
   require_method_of(machine, request.method);
   for (const Quantity& one : chosen)

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {
 
@@ -46,6 +47,9 @@ std::string doubt_of_speed(const Parameters& machine, double highest)
                   highest, printable_size(60 * highest));
   return "";
 }
+
+constexpr double most_eccentric = 3e-3;  // [m]
+constexpr double deepest = 0.03;         // what a suspension sinks by [m]
 
 struct Doubts : std::vector<std::string> {
   void add(bool is_doubted, const std::string& text)
@@ -106,7 +110,6 @@ void add_bearing(Doubts& all, const Bearing& bearing)
 /** About the unbalance and what the rotor weighs. */
 void add_rotor(Doubts& all, const Parameters& machine)
 {
-  constexpr double most_eccentric = 3e-3;   // [m]
   constexpr double least_eccentric = 1e-8;  // a tenth of G0.4 at 40,000 rpm [m]
   const Body& rotor = machine.rotor;
   const double e = printable_size(machine.unbalance / rotor.mass);
@@ -126,12 +129,49 @@ void add_rotor(Doubts& all, const Parameters& machine)
                  machine.unbalance, e));
 }
 
+/** About stiffnesses that carry the constant loads. */
+void add_sag(Doubts& all, const Parameters& machine)
+{
+  const auto rest = vector_of(machine.bodies->static_start(machine));
+  const double sag = rest.head(rest.size() / 2).cwiseAbs().maxCoeff();
+  all.add(sag > deepest,
+          format("the machine gives way by %.3g m at rest: are the units of its "
+                 "stiffnesses and loads right?",
+                 printable_size(sag)));
+}
+
+/** About the damping of a free rotor, which vibrates on the bearing. */
+void add_damper(Doubts& all, const Parameters& machine)
+{
+  const Body& rotor = machine.rotor;
+  if (rotor.rigid || rotor.natural_frequency > 0) return;
+  const double critical =
+      2 * std::sqrt(rotor.mass * scales(machine).stiffness * machine.bearing.balls);
+  all.add(rotor.damper > 2 * critical,
+          format("a damping of %.3g N s/m, %.3g times the critical one of %.3g kg on the "
+                 "bearing: is it in N s/m?",
+                 rotor.damper, printable_size(rotor.damper / critical), rotor.mass));
+}
+
+/** About bodies given by matrices. */
+void add_bodies(Doubts& all, const Parameters& machine)
+{
+  const LargeBodies bodies = matrices_of(machine);
+  const double unbalance = bodies.unbalance.cwiseAbs().sum() / 2,
+               weight = bodies.load.cwiseAbs().sum();
+  const double e = printable_size(unbalance * machine.gravity / weight);
+  all.add(weight > 0 && e > most_eccentric,
+          format("the unbalance of %.3g kg m is an eccentricity of %.3g m of all that "
+                 "weighs: is it in kg m?",
+                 unbalance, e));
+  add_sag(all, machine);
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Parameters& machine, double highest)
 {
   constexpr double heaviest = 30;      // gravity of any planet [m/s²]
-  constexpr double deepest = 0.03;     // what a suspension sinks by [m]
   constexpr double most_hertz = 1000;  // of a suspension
   Doubts all;
   for (const Bearing& bearing : bearings_of(machine)) add_bearing(all, bearing);
@@ -148,7 +188,10 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
             format("a damping ratio of %.3g: 1 is critical, %s?", ratio,
                    is_damper ? "is the damping in N s/m" : "is it in per cent"));
   }
-  if (!machine.bodies->takes_explicit_steps()) return all;
+  if (!machine.bodies->takes_explicit_steps()) {
+    add_bodies(all, machine);
+    return all;
+  }
   for (const auto& [body, name] :
        {std::pair{&machine.stator, "stator"}, {&machine.rotor, "rotor"}}) {
     if (body->rigid) continue;
@@ -164,6 +207,8 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
                    name, body->mass, printable_size(sinks), body->stiffness(), hertz));
   }
   add_rotor(all, machine);
+  if (all.empty()) add_sag(all, machine);
+  if (all.empty()) add_damper(all, machine);
   return all;
 }
 

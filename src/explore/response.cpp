@@ -84,6 +84,8 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
     task.samples *= base.turns;
   } else {
     task.has_two_frequencies = true;
+    if (request.count)
+      throw BadInput("--count: with two frequencies the branch chooses its speeds");
     if (request.samples || request.stability)
       throw BadInput(
           "--samples, --stability: not where n*omega_cage/omega is not a whole number; "

@@ -155,7 +155,8 @@ Exploration computed(Sweep& sweep)
       }
       ++next;
       try {
-        const ResponseRow& found = row.get();
+        ResponseRow& found = row.get();
+        found.frequency = frequency;  // to the last digit, which --resume looks for
         begin();
         table.row(sweep.columns.fields, found);
         if (request.watch)
@@ -175,7 +176,8 @@ Exploration computed(Sweep& sweep)
                      request.parameter_file.c_str(), lost, sweep.speeds.size()) +
               first_lost;
   put_complete(table, missing);
-  put_contact(table, sweep.machine, sweep.touches);
+  /** Rows that were there already do not say whether a ball touched. */
+  if (known.empty() || sweep.touches) put_contact(table, sweep.machine, sweep.touches);
   table.value("evaluations", spent, 3);
   if (is_streamed) table.end_stream();
   return {.table = std::move(table), .unfinished = missing, .is_written = is_streamed};

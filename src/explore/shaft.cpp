@@ -174,6 +174,38 @@ struct Shaft {
   }
 };
 
+/** Of x along the whole shaft [kg]. */
+double mass_of(const SparseMatrix& m)
+{
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(m.rows());
+  for (Eigen::Index node = 0; 4 * node < m.rows(); ++node) along[4 * node] = 1;
+  return along.dot(m * along);
+}
+
+/** What no shaft of metal or plastic has. */
+void warn(Table& table, const Shaft& shaft, double over_stiffness)
+{
+  constexpr double softest = 1e9, stiffest = 1e12;    // [Pa]
+  constexpr double lightest = 500, heaviest = 25000;  // [kg/m³]
+  constexpr double longest = 50, slowest = 0.1;       // [m], [s]
+  const auto& [young, shear, density] = shaft.steel;
+  const auto doubt = [&](bool is_doubted, const std::string& text) {
+    if (is_doubted) table.warning(text);
+  };
+  doubt(young < softest || young > stiffest,
+        format("a modulus of %.3g Pa: is it in Pa?", young));
+  doubt(density < lightest || density > heaviest,
+        format("a density of %.3g kg/m^3: is it in kg/m^3?", density));
+  const double nu = young / (2 * shear) - 1;
+  doubt(nu < 0 || nu > 0.5,
+        format("the moduli give a Poisson's ratio of %.3g: are both in Pa?", nu));
+  doubt(shaft.z.back() > longest,
+        format("a shaft of %.3g m: are its lengths in m?", shaft.z.back()));
+  doubt(over_stiffness > slowest,
+        format("a damping of %.3g s over the stiffness: steel has less than 1e-4",
+               over_stiffness));
+}
+
 }  // namespace
 
 Exploration explore_shaft(const ShaftRequest& request)
@@ -224,6 +256,9 @@ Exploration explore_shaft(const ShaftRequest& request)
   table.choose(request.columns, 6, false);
   table.parameters(request.parameter_file + " (" + title + ")");
   table.value("degrees_of_freedom", 4 * shaft.z.size());
+  table.value("mass", mass_of(m));
+  table.note("mass [kg]: of all; damping over_stiffness_s: over K with the supports");
+  warn(table, shaft, over_stiffness);
   table.note("matrices: M, C, G, K in " + request.folder);
   for (std::size_t i = 0; i < shaft.z.size(); ++i)
     table.row({i + 1, shaft.z[i], 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4});

@@ -55,16 +55,20 @@ Designation read_designation(StrictToml& table)
   Designation found{prefix + basic, "", part[1]};
   const std::string tail = part[4];
   static const std::regex word("[A-Z0-9.+]+", std::regex::icase);
-  static const std::regex clearance("[Cc]([02345Nn])(?:[A-Z]{2}.*)?|P[56]([2-5])");
+  /** Perhaps behind a code of seals, as in ZZC3. */
+  static const std::regex clearance(
+      "([A-Z0-9]*[A-Z.])?[Cc]([02345Nn])(?:[A-Z].*)?|P[56]([2-5])");
   for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
     const std::string code = at->str();
+    std::string other = code;
     if (std::regex_match(code, part, clearance)) {
-      const std::string name = part[1].str() + part[2].str();
+      const std::string name = part[2].str() + part[3].str();
       found.clearance = name == "0" || name == "n" ? "CN" : "C" + name;
-    } else {
-      found.unused +=
-          (found.unused.empty() || found.unused.back() == ' ' ? "" : " ") + code;
+      other = part[1];
     }
+    if (other.empty()) continue;
+    found.unused +=
+        (found.unused.empty() || found.unused.back() == ' ' ? "" : " ") + other;
   }
   return found;
 }

@@ -75,11 +75,11 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
     slope.setZero();
     force.setZero();
     for (Eigen::Index at = 0; const Bearing& joint : joints) {
+      const BallBearing bearing(joint, rotor_speed);
       for (int k = 0; k < angles; ++k) {
         const double cage =
             joint.cage_phase + angular(1) * k / std::max(joint.balls, 1) / angles;
-        const auto [f, s] = BallBearing(joint, rotor_speed)
-                                .reaction(Direction::of(cage), {u[at], u[at + 1]});
+        const auto [f, s] = bearing.reaction(Direction::of(cage), {u[at], u[at + 1]});
         Eigen::Matrix2d one;
         one << s.xx, s.xy, s.yx, s.yy;
         force.segment<2>(at) += Eigen::Vector2d(f.x, f.y) / angles;
@@ -137,7 +137,8 @@ LargeBodies matrices_of(const Parameters& parameters)
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
                                        const LargeBodies& machine, double rotor_speed)
 {
-  return at_rest(parameters, machine, 64, rotor_speed).stiffness;
+  constexpr int angles = 4096;  // many: a ball that loses its load has a steep stiffness
+  return at_rest(parameters, machine, angles, rotor_speed).stiffness;
 }
 
 State MatrixMachine::at_rest(const Parameters& parameters, Direction) const

@@ -188,7 +188,7 @@ class Formats(Case):
                         ["runup", self.machine, "--from", 20, "--to", 21, "--seconds", 1],
                         ["campbell", self.machine, "--from", 0, "--to", 60, "--count", 7]):
             in_hertz, in_rpm = (self.lines(*command, "--plot", "a.svg", *more) for more in ([], ["--rpm"]))
-            self.assertEqual([line for line in in_rpm if line != "# speed_unit: rpm"], in_hertz)
+            self.assertEqual([line for line in in_rpm if line != "# speed_axis: rpm"], in_hertz)
             svg = (self.folder / "a.svg").read_text(encoding="utf-8")
             self.assertIn("speed of rotation [rpm]", svg)
             self.assertIn("3000" if command[0] == "campbell" else "1240", svg)
