@@ -133,7 +133,9 @@ void add_rotor(Doubts& all, const Parameters& machine)
 void add_sag(Doubts& all, const Parameters& machine)
 {
   const auto rest = vector_of(machine.bodies->static_start(machine));
-  const double sag = rest.head(rest.size() / 2).cwiseAbs().maxCoeff();
+  double sag = rest.head(rest.size() / 2).cwiseAbs().maxCoeff();
+  for (const Bearing& bearing : bearings_of(machine))
+    sag -= std::max(0.0, bearing.clearance);
   all.add(sag > deepest,
           format("the machine gives way by %.3g m at rest: are the units of its "
                  "stiffnesses and loads right?",

@@ -185,16 +185,16 @@ double mass_of(const SparseMatrix& m)
 /** What no shaft of metal or plastic has. */
 void warn(Table& table, const Shaft& shaft, double over_stiffness)
 {
-  constexpr double softest = 1e9, stiffest = 1e12;    // [Pa]
-  constexpr double lightest = 500, heaviest = 25000;  // [kg/m³]
-  constexpr double longest = 50, slowest = 0.1;       // [m], [s]
+  constexpr double softest = 1e9, stiffest = 1e12;                     // [Pa]
+  constexpr double massless = 0.5, lightest = 500, heaviest = 25000;  // [kg/m³]
+  constexpr double longest = 50, slowest = 0.1;                        // [m], [s]
   const auto& [young, shear, density] = shaft.steel;
   const auto doubt = [&](bool is_doubted, const std::string& text) {
     if (is_doubted) table.warning(text);
   };
   doubt(young < softest || young > stiffest,
         format("a modulus of %.3g Pa: is it in Pa?", young));
-  doubt(density < lightest || density > heaviest,
+  doubt((density > massless && density < lightest) || density > heaviest,
         format("a density of %.3g kg/m^3: is it in kg/m^3?", density));
   const double nu = young / (2 * shear) - 1;
   doubt(nu < 0 || nu > 0.5,

@@ -151,10 +151,10 @@ class Verdicts(Case):
                     self.assertAlmostEqual(on_branch / attractors[name][k], 1, delta=5e-4)
 
     def test_what_six_harmonics_hid(self):
-        for frequency, *answer in [(20, "unstable", "periodic", 2), (54, "unstable", "periodic", 2),
-                                   (13.4, "undecided", "chaotic", None), (45, "stable", "periodic", 1)]:
+        for frequency, *answer in [(20, "unstable", "periodic", 1, "periodic", 2), (54, "unstable", "periodic", 1, "periodic", 2),
+                                   (13.4, "undecided", "chaotic", None, "chaotic", None), (45, "stable", "periodic", 1, None, None)]:
             table = self.table("orbit", self.machine, "--frequency", frequency, "--points", 4, *SIX)
-            self.assertEqual(self.said(table, "stability", "regime", "period"), answer)
+            self.assertEqual(self.said(table, "stability", "regime", "period", "regime_from_there", "period_from_there"), answer)
 
     def test_an_inaccurate_picture_is_said_to_be_one(self):
         table = self.table("orbit", SETS[1], "--frequency", 1, "--points", 4, *SIX)

@@ -138,10 +138,10 @@ class Catalogue(Case):
         """Maker, seals, cage and grease change nothing and are named; a class of clearance is that of the key."""
         keys = ["balls", "contact_stiffness", "clearance", "cage_speed_ratio"]
         expected = self.header(C3, *keys)
-        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63"]:
+        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63", "6205/C3H", "6205-C3E"]:
             with self.subTest(text):
                 self.assertEqual(self.header(f'designation = "{text}"', *keys), expected)
-        for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ")]:
+        for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ"), ("6205ZZC3", "ZZ"), ("6205 LLUC3", "LLU")]:
             with self.subTest(text):
                 self.assertIn(f"bearing data of Case Western Reserve University; not used: {unused}", self.checked(C3.replace("6205", text)).header)
         own = self.header('designation = "6201-2Z"\ninternal_clearance = "C0"', *keys)
@@ -154,6 +154,7 @@ class Catalogue(Case):
         self.assertIn("C3 of the designation is not used", self.checked(mounted).header)
         for bearing, words in [
                 (C3.replace("6205", "6205 C4"), 'internal_clearance "C3" contradicts C4 of designation'),
+                (C3.replace("6205", "6205DDUC4"), 'internal_clearance "C3" contradicts C4 of designation'),
                 (C3.replace("6205", "NU205"), "is a cylindrical roller bearing"),
                 (C3.replace("6205", "7205 BECBP"), "is an angular contact ball bearing"),
                 (C3.replace("6205", "62051"), "is not in the catalogue"),
@@ -173,6 +174,13 @@ class Catalogue(Case):
         for mine in ["radial_clearance_um = 20", "radial_clearance_mm = 0.02"]:
             self.assertEqual(values(other.replace("radial_clearance_m = 2e-5", mine)), expected)
         self.assertEqual(values(other.replace("unbalance_kg_m = 0.05", "unbalance_g_mm = 50000")), expected)
+        for key, unit, number in [("mass_kg", "mass_t", 1e-3), ("mass_kg", "mass_lb", 1 / 0.45359237)]:
+            old = re.search(rf"{key} = ([\d.]+)", MACHINE)
+            here, there = [[float(cell) for row in values(text)[1:] for cell in row.split("\t")]
+                           for text in [MACHINE, MACHINE.replace(old[0], f"{unit} = {float(old[1]) * number!r}", 1)]]
+            np.testing.assert_allclose(there, here, rtol=1e-6, atol=1e-9)
+        damper = other.replace("damping_ratio = 0.05", "damping_N_s_per_m = 500")
+        self.assertEqual(values(damper.replace("N_s_per_m = 500", "N_s_per_mm = 0.5")), values(damper))
         mm = BY_HAND.replace("ball_diameter_m = 0.00794", "ball_diameter_mm = 7.94").replace(
             "youngs_modulus_Pa = 2.07e11", "youngs_modulus_GPa = 207")
         keys = ["contact_stiffness", "clearance", "cage_speed_ratio"]
@@ -183,7 +191,7 @@ class Catalogue(Case):
                  "bearing.radial_clearance_um and radial_clearance_m are both given"),
                 ("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = -5", "stator.natural_frequency_Hz must be >= 0, got -5"),
                 ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_um?"),
-                ("damping_ratio = 0.05", "damping_N_s_per_mm = 5", "damping_ratio is missing")]:
+                ("damping_ratio = 0.05", "damping_N_s_per_um = 5", "damping_ratio is missing")]:
             self.refused_change(old, new, words)
         maps = [[row.split("\t")[-1] for row in self.rows("map", self.file("own.toml", text), "--x", axis, "--frequency", 45,
                                                            "--harmonics", 6, "--quantity", "amplitude")]

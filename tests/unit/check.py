@@ -102,6 +102,8 @@ class Check(Case):
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz, or the stiffness in N/m?"),
                                ("unbalance_kg_m = 1e-4", "unbalance_kg_m = 1e-8", "finer than any rotor is balanced"),
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 80\ndamping_N_s_per_m = 3e5", "is the damping in N s/m?"),
+                               ("damping_N_s_per_m = 10", "damping_N_s_per_m = 8e5", "is it in N s/m?"),
+                               ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, -1e9]", "the machine gives way by"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
             self.assertIn(old, HELD)
             self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)

@@ -152,6 +152,11 @@ class Branch(Case):
                 self.assertTrue(whole.startswith(part.stdout.split("# complete")[0]))
                 rest = self.lines(*sweep, "--resume", self.file("part.tsv", part.stdout))
                 self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole.splitlines() if row[0] != "#"])
+        thirds = ["response", self.machine, "--from", 20, "--to", 30, "--count", 20]  # of no short decimals
+        whole = self.lines(*thirds)
+        part = [row for row in whole if not row.startswith("# ") or row.split(":")[0] not in ("# complete", "# contact", "# evaluations")]
+        rest = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(part[:-13]) + "\n"))
+        self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole if row[0] != "#"])
         damped = self.file("damped.toml", MACHINE.replace("cage_speed_ratio", "contact_damping_s_per_m = 5.0\ncage_speed_ratio"))
         self.assertEqual(self.table("response", damped, "--from", 40, "--to", 42, "--count", 3).value("contact"), "yes")
         loose = self.file("loose.toml", MACHINE.replace("= 2e-5", "= 2e-2"))

@@ -233,6 +233,13 @@ class Values(Case):
         self.assertEqual((result.returncode, result.stderr), (0, "2 of 3 points have no result: see their status\n"))
         self.assertEqual([cell == "-" for cell in table["amplitude"]], [True, False, True])
         self.assertIn("6.88 balls pass", table["status"][0])
+        none = self.run_explore("map", self.machine, "--y", "bearing.cage_speed_ratio=0.43:0.431:2", "--frequency", 45, *SIX,
+                                "--quantity", "amplitude")
+        self.assertEqual((none.returncode, len(Table.of(none.stdout)["status"])), (3, 2))
+        self.assertIn("2 of 2 points have no result", none.stderr)
+        other = self.file("other.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
+        self.refused("a map has none where two frequencies drive", "map", other, "--x", "rotor.mass_kg=30:40:2", "--sweep", "20:60:9",
+                     "--quantity", "peak")
 
     def test_each_point_keeps_its_budget(self):
         """A sweep of 100,000 speeds took more than a minute, the motion from rest with 1,024 balls hours."""
@@ -240,7 +247,7 @@ class Values(Case):
         for machine, asked in ((self.machine, "--quantity peak,missed --sweep 1:60:100000 --harmonics 256"),
                                (many, "--quantity period,lyapunov --frequency 13.4 --method rk4 --longest 1e5")):
             result = self.run_explore("map", machine, "--x", f"{CLEARANCE}=1e-5:2e-5:2", *asked.split(), "--budget", 1e5, timeout=20)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.returncode, 3, result.stderr)
             rows = Table.of(result.stdout)
             self.assertTrue(all("the budget of 1e+05 evaluations of the force is used up" in word for word in rows["status"]))
             self.assertTrue(all(str(cell) in ("-", "-2.0") for name in asked.split()[1].split(",") for cell in rows[name]))

@@ -211,6 +211,19 @@ acceleration_m_per_s2 = 0
         _, forward = self.whirl(two_disks(6, 1e6, 1e6), 4000)
         self.assertEqual(list(forward[:4]), [False, True, False, True])
 
+    def test_units_of_a_shaft(self):
+        """What no shaft has is doubted; the mass is that of all bodies on it."""
+        plain = STEEL + segment(6) + disk(4, 0.28)
+        for old, new, words in [("211e9", "211", "a modulus of 211 Pa"), ("81.2e9", "795e9", "the moduli give a Poisson's ratio of -0.867"),
+                                ("7810", "7.81", "a density of 7.81 kg/m^3"), ("length_m = ", "length_m = 1000", "a shaft of")]:
+            self.assertIn(old, plain)
+            run = self.run_explore("shaft", self.file("doubtful.toml", plain.replace(old, new)), "--to", self.folder / "doubtful")
+            self.assertEqual(run.returncode, 0)
+            self.assertIn("warning: " + words, run.stderr)
+        table = self.table("shaft", self.file("plain.toml", plain), "--to", self.folder / "plain")
+        volume = np.pi / 4 * (0.05**2 * 1.5 + (0.28**2 - 0.05**2) * 0.07)
+        self.assertAlmostEqual(table.value("mass") / (7810 * volume), 1, delta=1e-9)
+
     def test_hollow_shaft(self):
         """A slender free hollow shaft bends a little slower than the beam of Euler and Bernoulli; M holds its mass."""
         m, _, _, k = self.matrices(STEEL + segment(30, bore=0.03))
