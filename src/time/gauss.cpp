@@ -77,9 +77,10 @@ GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& paramet
   }
   /** The force of a contact that opens is off by the power 3/2 of the change. */
   last_change_ = (is_smooth ? 1e-8 : 1e-12) * length_;
-  const auto n = static_cast<double>(rest_.size());
-  price_ = ((is_damped_ ? 1.5 : 1.0) * 1750 * static_cast<double>(cages_.size()) +
-            10 * balls + (n <= most_dense ? 0.75 * n * n : 130 * n)) /
+  const auto n = static_cast<double>(rest_.size()),
+             joints = static_cast<double>(cages_.size());
+  price_ = ((is_damped_ ? 1.5 : 1.0) * 650 * joints * joints + 10 * balls +
+            (n <= most_dense ? 0.6 * n * n : 130 * n)) /
            operations_per_evaluation(parameters.bearing.balls);
 }
 
@@ -280,8 +281,8 @@ bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
   return true;
 }
 
-/** One interval. The motion alone chooses the steps 2⁻ᵏ of it, by the difference between
-    one and its halves. */
+/** One interval. The motion alone chooses the steps 2⁻ᵏ of it, by the error of their
+    halves. */
 void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
 {
   constexpr int finest = 16;  ///< halvings below the first step
@@ -293,11 +294,11 @@ void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
     const double middle = phase + omega_ * half.step;
     Eigen::MatrixXd fine = y.leftCols(1);
     Eigen::VectorXd coarse;
-    double error = std::numeric_limits<double>::infinity();
+    double error = std::numeric_limits<double>::infinity();  // by order 4
     if (joints_after(whole, phase, fine, coarse) && step(half, phase, fine) &&
         step(half, middle, fine))
-      error = (joints_.transpose() * fine.topRows(n) - coarse).cwiseAbs().maxCoeff() / 15 /
-              length_;
+      error = (joints_.transpose() * fine.topRows(n) - coarse).cwiseAbs().maxCoeff() /
+              (15 * length_);
     if (!(error <= tolerance_) && now_ < first_ + finest) {
       ++now_;
       continue;
@@ -371,7 +372,7 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
                                    const State& start, const StepSettings& settings,
                                    long interval) const
 {
-  constexpr double coarser = 1e2;
+  constexpr double coarser = 7;
   const int intervals = settings.intervals_per_period;
   GaussStepper state(bodies_, parameters, omega, intervals, settings.tolerance,
                      settings.budget);
