@@ -185,9 +185,9 @@ double mass_of(const SparseMatrix& m)
 /** What no shaft of metal or plastic has. */
 void warn(Table& table, const Shaft& shaft, double over_stiffness)
 {
-  constexpr double softest = 1e9, stiffest = 1e12;                     // [Pa]
+  constexpr double softest = 1e9, stiffest = 1e12;                    // [Pa]
   constexpr double massless = 0.5, lightest = 500, heaviest = 25000;  // [kg/m³]
-  constexpr double longest = 50, slowest = 0.1;                        // [m], [s]
+  constexpr double longest = 50, slowest = 0.1;                       // [m], [s]
   const auto& [young, shear, density] = shaft.steel;
   const auto doubt = [&](bool is_doubted, const std::string& text) {
     if (is_doubted) table.warning(text);

@@ -31,8 +31,8 @@ public:
       budget is used up. */
   virtual void advance(long interval, State& state) = 0;
 
-  /** A neighbour of the motion that was advanced last, over the same interval and with the
-      same steps: others would part them. */
+  /** A neighbour of the motion that was advanced last, over the same interval and with
+      the same steps: others would part them. */
   virtual void advance_beside(long interval, State& state) { advance(interval, state); }
 
   /** Evaluations of Eq. 7 so far. */

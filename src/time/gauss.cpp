@@ -200,8 +200,8 @@ Eigen::MatrixXd GaussStepper::all_unforced(const Level& level) const
   return all;
 }
 
-/** Its first rows, of few coordinates by that matrix: it is made for disturbances, and for
-    a motion when it has made as many steps as the matrix takes. */
+/** Its first rows, of few coordinates by that matrix: it is made for disturbances, and
+    for a motion when it has made as many steps as the matrix takes. */
 Eigen::MatrixXd GaussStepper::unforced(Level& level, double angle,
                                        const Eigen::MatrixXd& y, Eigen::Index rows) const
 {

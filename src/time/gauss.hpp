@@ -46,8 +46,8 @@ private:
   using Sparse = Eigen::SparseMatrix<std::complex<double>>;
 
   /** What belongs to a step size. Its matrices give what the forces depend on, u [m] of
-      the joints at both stages and perhaps u̇ [m/s]; below it u after the step; below that
-      the state after it, 2n rows. */
+      the joints at both stages and perhaps their rates [m/s]; below it u after the step;
+      below that the state after it, 2n rows. */
   struct Level {
     double step;  ///< [s]
     Eigen::SparseLU<Sparse> factors;
@@ -88,7 +88,7 @@ private:
   SparseMatrix mass_, damping_, stiffness_, joints_;
   Eigen::VectorXd rest_;
   Eigen::VectorXcd unbalance_;
-  int first_, now_;  ///< k of the longest step and of the present one
+  int first_, now_;         ///< k of the longest step and of the present one
   std::vector<int> taken_;  ///< k of the steps of the last motion, two halves each
   std::map<int, std::unique_ptr<Level>> levels_;
   OperationBudget budget_;
