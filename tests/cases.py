@@ -13,7 +13,7 @@ import numpy as np
 from scipy.io import mmread
 
 from tests.truth.independent import Model, displacements, errors
-from tests.support.explore import MACHINE, Case
+from tests.support.explore import MACHINE, Case, changed
 
 CASES = Path("tests/cases").resolve()
 
@@ -323,25 +323,7 @@ class Measures(Case):
         """A base period of seven turns at 3 Hz holds 2,800 vibrations of the contact, far
         more than the rows: Eq. 7 has the accelerations at every row, and measures of them
         are the same in every command, however few rows are asked for."""
-        text = """title = "seven turns"
-[stator]
-mass_kg = 20
-natural_frequency_rad_per_s = 500
-damping_ratio = 0.05
-[rotor]
-mass_kg = 40
-natural_frequency_rad_per_s = 150
-damping_ratio = 0.02
-unbalance_kg_m = 0.05
-[bearing]
-balls = 9
-contact_stiffness_N_per_m1p5 = 1e11
-radial_clearance_m = 2e-05
-cage_speed_ratio = 0.3492063492063492
-[gravity]
-acceleration_m_per_s2 = 9.81
-"""
-        own = self.file("seven.toml", text)
+        own = self.file("seven.toml", changed(balls=9, cage_speed_ratio=0.3492063492063492))
         names = ["rms_a_y_s", "peak_a_y_s", "iso_y_s"]
         table = self.table("orbit", own, "--frequency", 3, "--columns",
                            ",".join(["y_s", "v_y_s", "F_y", "a_y_s", *names]))
@@ -357,7 +339,7 @@ acceleration_m_per_s2 = 9.81
     def test_iso_at_its_lower_end(self):
         """A line at 10 Hz belongs to the band, though the window of an open record spreads
         it over both sides."""
-        own = self.file("light.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.38123"))
+        own = self.file("light.toml", changed(cage_speed_ratio=0.38123))
         iso, rms = self.measured(own, ["orbit", "--frequency", 10], "--columns", ["iso_x_r", "amp_1X_x_r"])
         self.assertGreater(iso, 0.999e3 * 2 * math.pi * 10 * rms / math.sqrt(2))
 

@@ -403,14 +403,14 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
     throw BadInput("--frequency: is missing, the speed of " + here);
   if (here.empty() && has_speed)
     throw BadInput("--frequency: the quantities asked for are those of --sweep");
+  const Parameters machine = first();
   if (request.method != "aft" && !(balanced + swept).empty())
     throw BadInput("--method " + request.method + ": " +
                    (balanced.empty() ? swept : balanced) + " is of harmonic balance; " +
-                   (base_period(first()).is_driven_twice()
+                   (base_period(machine).is_driven_twice()
                         ? "a map has none where two frequencies drive; response has "
                           "amplitudes over speeds"
                         : "give --harmonics M"));
-  const Parameters machine = first();
   require_method_of(machine, request.method);
   for (const Quantity& one : chosen)
     if (one.of_two_masses)

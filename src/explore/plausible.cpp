@@ -158,7 +158,7 @@ void add_damper(Doubts& all, const Parameters& machine)
 /** About bodies given by matrices. */
 void add_bodies(Doubts& all, const Parameters& machine)
 {
-  const LargeBodies bodies = matrices_of(machine);
+  const auto& bodies = dynamic_cast<const MatrixMachine&>(*machine.bodies).bodies();
   const double unbalance = bodies.unbalance.cwiseAbs().sum() / 2,
                weight = bodies.load.cwiseAbs().sum();
   const double e = printable_size(unbalance * machine.gravity / weight);

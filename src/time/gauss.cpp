@@ -218,20 +218,22 @@ Eigen::MatrixXd GaussStepper::unforced(Level& level, double angle,
   return after;
 }
 
-/** Of the joints at both stages, from the rows of a step without them, and what
-    disturbances change in them. False where Newton does not converge. */
-bool GaussStepper::forces(Level& level, double phase, const Eigen::MatrixXd& rows,
-                          Eigen::MatrixXd& force)
+/** The motion in the first column of `y`, displacements and speeds, and its disturbances
+    in the others; it becomes the state after the step, or u of the joints there. False
+    where Newton does not converge. */
+bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y, After after)
 {
-  const Eigen::Index both = 2 * joints_.cols(), others = rows.cols() - 1;
-  budget_.spend(price_ * static_cast<double>(rows.cols()));
+  const Eigen::Index both = 2 * joints_.cols(), others = y.cols() - 1;
+  budget_.spend(price_ * static_cast<double>(y.cols()));
   ++level.steps;
   const Eigen::Vector2d& c = gauss_rule().c;
   const double by = omega_ * level.step,
                phases[] = {phase + by * c[0], phase + by * c[1]};
+  const Eigen::MatrixXd rows = unforced(
+      level, turns_ * phase, y, with_end() + (after == After::state ? y.rows() : 0));
   const auto free = rows.topRows(seen());
   const auto receptance = level.per_force.topRows(seen());
-  force.resize(both, rows.cols());
+  Eigen::MatrixXd force(both, y.cols());
   Slopes slopes, slope;
   Eigen::PartialPivLU<Slopes> factors;
   Seen u = free.col(0) - receptance.lazyProduct(level.force), change, pushed;
@@ -254,30 +256,9 @@ bool GaussStepper::forces(Level& level, double phase, const Eigen::MatrixXd& row
   force.col(0) = level.force = pushed - slopes.lazyProduct(change);
   if (others > 0)
     force.rightCols(others) = factors.solve(slopes * free.rightCols(others));
-  return true;
-}
-
-/** u after a step of the motion `y` [m]. */
-bool GaussStepper::joints_after(Level& level, double phase, const Eigen::MatrixXd& y,
-                                Eigen::VectorXd& u)
-{
-  const Eigen::Index d = joints_.cols();
-  const Eigen::MatrixXd rows = unforced(level, turns_ * phase, y, with_end());
-  Eigen::MatrixXd force;
-  if (!forces(level, phase, rows, force)) return false;
-  u = rows.bottomRows(d) - level.per_force.middleRows(seen(), d) * force;
-  return true;
-}
-
-/** The motion in the first column of `y`, displacements and speeds, and its disturbances
-    in the others. */
-bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
-{
-  const Eigen::Index states = y.rows();
-  const Eigen::MatrixXd rows = unforced(level, turns_ * phase, y, with_end() + states);
-  Eigen::MatrixXd force;
-  if (!forces(level, phase, rows, force)) return false;
-  y = rows.bottomRows(states) - level.per_force.bottomRows(states) * force;
+  const Eigen::Index kept = after == After::state ? y.rows() : joints_.cols();
+  y = rows.bottomRows(kept) -
+      level.per_force.middleRows(rows.rows() - kept, kept) * force;
   return true;
 }
 
@@ -292,10 +273,9 @@ void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
     const double phase = omega_ * interval_ * (static_cast<double>(interval) + passed);
     Level &whole = level(now_), &half = level(now_ + 1);
     const double middle = phase + omega_ * half.step;
-    Eigen::MatrixXd fine = y.leftCols(1);
-    Eigen::VectorXd coarse;
+    Eigen::MatrixXd coarse = y.leftCols(1), fine = coarse;
     double error = std::numeric_limits<double>::infinity();  // by order 4
-    if (joints_after(whole, phase, fine, coarse) && step(half, phase, fine) &&
+    if (step(whole, phase, coarse, After::joints) && step(half, phase, fine) &&
         step(half, middle, fine))
       error = (joints_.transpose() * fine.topRows(n) - coarse).cwiseAbs().maxCoeff() /
               (15 * length_);

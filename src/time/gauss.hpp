@@ -69,11 +69,8 @@ private:
   using Slopes =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_forces, most_seen>;
   Seen reaction(const double* phases, const Seen& seen, Slopes& slopes);
-  bool forces(Level& level, double phase, const Eigen::MatrixXd& rows,
-              Eigen::MatrixXd& force);
-  bool joints_after(Level& level, double phase, const Eigen::MatrixXd& y,
-                    Eigen::VectorXd& u);
-  bool step(Level& level, double phase, Eigen::MatrixXd& y);
+  enum class After { state, joints };
+  bool step(Level& level, double phase, Eigen::MatrixXd& y, After after = After::state);
   void integrate(long interval, Eigen::MatrixXd& y);
 
   /** Rows of what the forces depend on, at both stages; and with u after the step. */

@@ -32,7 +32,8 @@ void TrajectoryPair::next(std::vector<Passage>& all)
   }
   const long interval = at_.period * intervals_ + interval_;
   all.push_back({flow_.get(), interval, &at_.state});
-  all.push_back({flow_.get(), interval, &neighbour_, 1, nullptr, true});
+  all.push_back(
+      {.flow = flow_.get(), .first = interval, .state = &neighbour_, .is_beside = true});
 }
 
 void TrajectoryPair::arrived()
