@@ -47,8 +47,8 @@ struct Finder {
               search.newton);
     motion.start = name;
     motion.force_samples += before;
-    if (search.turns > 1 && repeats_sooner(motion, search.turns))
-      motion.newton.end = NewtonEnd::no_decrease;
+    if (motion.found() && search.turns > 1 && repeats_sooner(motion, search.turns))
+      motion.newton.end = NewtonEnd::shorter_period;
     if (motion.found()) motion.bodies = body_series(parameters, motion);
     return motion.found();
   }

@@ -35,7 +35,8 @@ Images Harmonics::images(const TorusLine& line, int samples) const
 std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
-                                  "no step decreases the residual", "no finite step"};
+                                  "no step decreases the residual", "no finite step",
+                                  "only a motion of a shorter period"};
   const bool is_finite = std::isfinite(delta_1) && std::isfinite(delta_2);
   return format("%s after %d iterations (", ends[static_cast<int>(end)], iterations) +
          (is_finite ? format("residual %.1e, step %.1e)", delta_1, delta_2)

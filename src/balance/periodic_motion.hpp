@@ -63,7 +63,13 @@ private:
 };
 
 /** How Newton's iteration ended. */
-enum class NewtonEnd { converged, too_many_iterations, no_decrease, not_finite };
+enum class NewtonEnd {
+  converged,
+  too_many_iterations,
+  no_decrease,
+  not_finite,
+  shorter_period  ///< converged, on a motion that repeats itself sooner
+};
 
 struct NewtonReport {
   NewtonEnd end = NewtonEnd::too_many_iterations;

@@ -28,7 +28,9 @@ constexpr std::array<What, 8> whats{
      {"rms_", "", "rms about the mean of "},
      {"amp_1X_", "", "amplitude at the frequency of rotation of "},
      {"phase_1X_", "rad", "phase there, a cos(omega t + phase), of "},
-     {"iso_", "mm/s", "rms of the velocity from 10 to 1000 Hz, ISO 20816, of "}}};
+     {"iso_", "mm/s",
+      "rms of the velocity from 10 (below 600 turns a minute 2) to 1000 Hz, ISO 20816, "
+      "of "}}};
 constexpr std::array<What, 3> rates{
     {{"", "m", ""}, {"v_", "m/s", "velocity of "}, {"a_", "m/s^2", "acceleration of "}}};
 
@@ -138,7 +140,8 @@ double value_of(const std::string& what, const Eigen::VectorXd& x, const Record&
   if (what == "rms_") return std::sqrt((x.array() - mean).square().mean());
   if (what == "amp_1X_") return std::abs(at_rotation(x, record));
   if (what == "phase_1X_") return std::arg(at_rotation(x, record));
-  return 1e3 * rms_between(x, record, 10, 1000);
+  constexpr double slow = 10;  // [Hz], 600 turns a minute
+  return 1e3 * rms_between(x, record, record.speed < slow ? 2 : 10, 1000);
 }
 
 /** A displacement, its velocity or acceleration at all instants. */

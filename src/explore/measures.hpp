@@ -5,7 +5,8 @@ Columns by name, WHAT_PLACE: of any displacement that `orbit` prints, as x_r, x_
 x_r_out, of its velocity v_x_r and its acceleration a_x_r. WHAT is `amp` (half
 peak-to-peak), `peak` (the largest distance from the mean), `mean`, `rms` (about the
 mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso` (rms of the
-velocity in mm/s from 10 to 1000 Hz, ISO 20816). Without WHAT the value at each instant.
+velocity in mm/s from 10 to 1000 Hz, below 600 turns a minute from 2 Hz, ISO 20816).
+Without WHAT the value at each instant.
 
 All are taken from one record at equal instants, sixteen in a vibration of the contact: K
 base periods of a motion that closes, 256 of another one (fewer where these would not fit

@@ -54,10 +54,10 @@ Designation read_designation(StrictToml& table)
     refuse("an angular contact ball bearing", "balls, diameters and contact_angle_deg");
   Designation found{prefix + basic, "", part[1]};
   const std::string tail = part[4];
-  static const std::regex word("[A-Z0-9.+]+", std::regex::icase);
+  static const std::regex word("[A-Z0-9+]+", std::regex::icase);
   /** Perhaps behind a code of seals, as in ZZC3. */
   static const std::regex clearance(
-      "([A-Z0-9]*[A-Z.])?[Cc]([02345Nn])(?:[A-Z].*)?|P[56]([2-5])");
+      "([A-Z0-9]*[A-Z])?[Cc]([02345Nn])(?:[A-Z].*)?|P[56]([2-5])");
   for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
     const std::string code = at->str();
     std::string other = code;
@@ -155,11 +155,12 @@ std::vector<double> clearance_range(StrictToml& table, const std::string& wanted
              format("has no %s for a bore of %g m", wanted.c_str(), bore));
 }
 
-/** The class of clearance, by the key or by the designation. */
+/** The class of clearance, by the key or by the designation; without either the normal
+    one, which bearings do not bear a mark of (ISO 5753-1). */
 std::string clearance_class(StrictToml& table, const std::string& by_designation)
 {
   constexpr const char* key = "internal_clearance";
-  if (!table.has(key)) return by_designation;
+  if (!table.has(key)) return by_designation.empty() ? "CN" : by_designation;
   std::string given = table.string(key);
   static const std::regex known("C[02345N]", std::regex::icase);
   if (!std::regex_match(given, known))
@@ -180,14 +181,15 @@ double read_clearance(StrictToml& table, StrictToml& source,
       {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
   const bool is_given =
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
-  const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
+  const bool has_class = table.has(designation_key);
+  const std::size_t way = is_given || !has_class ? table.way(ways) : 2;
   if (way < 2) {
     const double given = table.number(ways[way][0], Range::any),
                  radial = way == 0 ? given : given / 2;
     if (way == 1)
       derived.push_back(
           format("clearance: %.15g m on the diameter, delta is half of it", given));
-    if (!table.has(designation_key)) return radial;
+    if (!has_class) return radial;
     if (!by_designation.empty())
       derived.push_back("clearance: as given; " + by_designation +
                         " of the designation is not used");
@@ -201,7 +203,7 @@ double read_clearance(StrictToml& table, StrictToml& source,
           2e6 * std::min(radial, 1e300), widest.c_str(), 1e6 * most);
     return radial;
   }
-  if (!table.has(designation_key))
+  if (!has_class)
     table.fail("internal_clearance",
                "needs designation, which gives the bore; without it give "
                "diametral_clearance_m");
@@ -209,9 +211,11 @@ double read_clearance(StrictToml& table, StrictToml& source,
   const auto range =
       clearance_range(table, wanted, source.number("bore_m", Range::positive));
   derived.push_back(
-      format("clearance: %s, %g to %g um on the diameter unmounted (ISO 5753-1), "
+      format("clearance: %s%s, %g to %g um on the diameter unmounted (ISO 5753-1), "
              "delta is half of the middle",
-             wanted.c_str(), 1e6 * range[0], 1e6 * range[1]));
+             wanted.c_str(),
+             is_given || !by_designation.empty() ? "" : ", as nothing else is named",
+             1e6 * range[0], 1e6 * range[1]));
   return (range[0] + range[1]) / 4;
 }
 

@@ -9,7 +9,8 @@ stiffness. Each of them has several ways to be given, and exactly one is taken:
 - cage ω_cage/ω: `cage_speed_ratio`, or both radii (Eq. 3), or `ball_diameter_m` and
   `pitch_diameter_m` with (1 - D/d_m)/2, or `designation`;
 - radial clearance δ: `radial_clearance_m`, or half of `diametral_clearance_m`, or half of
-  the middle of the range of the class `internal_clearance`;
+  the middle of the range of the class `internal_clearance`, of a designation that names
+  none CN, the normal one;
 - stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`,
   `outer_groove_ratio`, `youngs_modulus_Pa` and `poissons_ratio`, or `designation`; with
   another exponent `contact_exponent` and `contact_stiffness_N_per_mn`.

@@ -138,7 +138,7 @@ class Catalogue(Case):
         """Maker, seals, cage and grease change nothing and are named; a class of clearance is that of the key."""
         keys = ["balls", "contact_stiffness", "clearance", "cage_speed_ratio"]
         expected = self.header(C3, *keys)
-        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63", "6205/C3H", "6205-C3E"]:
+        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63", "6205/C3H", "6205-C3E", "6205.2ZR.C3"]:
             with self.subTest(text):
                 self.assertEqual(self.header(f'designation = "{text}"', *keys), expected)
         for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ"), ("6205ZZC3", "ZZ"), ("6205 LLUC3", "LLU")]:
@@ -147,6 +147,8 @@ class Catalogue(Case):
         own = self.header('designation = "6201-2Z"\ninternal_clearance = "C0"', *keys)
         for text in ["6201 CN", "6201 Cn"]:
             self.assertEqual(own, self.header(f'designation = "{text}"\ninternal_clearance = "C0"', *keys))
+        self.assertEqual(own, self.header('designation = "6201-2Z"', *keys))  # ISO 5753-1: no mark
+        self.assertIn("clearance: CN, as nothing else is named, 3 to 18 um", self.checked('designation = "6201-2RSJEM"').header)
         self.assertAlmostEqual(own[2], (3e-6 + 18e-6) / 4, delta=1e-18)
         self.assertAlmostEqual(*self.header('designation = "6205 C5"', "clearance"), (30e-6 + 53e-6) / 4, delta=1e-18)
         mounted = 'designation = "6205 C3"\nradial_clearance_m = 6e-6'
@@ -230,7 +232,7 @@ class Catalogue(Case):
                 (C3 + "\ninner_groove_ratio = 0.52", "designation and inner_groove_ratio are both given"),
                 (C3 + "\ncontact_stiffness_N_per_m1p5 = 1e10", "are both given"),
                 (C3 + "\nradial_clearance_m = 0", "internal_clearance and radial_clearance_m are both given"),
-                ('designation = "6205"', "radial_clearance_m is missing; give it, or diametral_clearance_m, or internal"),
+                ('designation = "6205"\nradial_clearence_m = 1e-5', "radial_clearence_m is not a known key here; did you mean radial_clearance_m?"),
                 (BY_HAND.replace("diametral_clearance_m = 20.5e-6", 'internal_clearance = "C3"'), "needs designation"),
                 (BY_HAND.replace("inner_groove_ratio = 0.52", "inner_groove_ratio = 0.5"),
                  "inner_groove_ratio must be > 0.5"),

@@ -269,4 +269,5 @@ acceleration_m_per_s2 = 0
         self.assertFalse((self.folder / "shaft").exists())
         own = self.file("good.toml", good)
         self.refused("--to", "shaft", own, "--to", own)
+        self.refused("segment is of a shaft: explore shaft makes its matrices", "orbit", own, "--frequency", 20)
         self.refused("--to", "shaft", own, "--to", "no/such/folder")
