@@ -5,32 +5,32 @@ Paper: §3.3, Fig. 3; data set 2 is added.
 Run: `build/fig03_response > data/generated/fig03_response.tsv`
 
 The figure shows how strongly rotor and stator vibrate at each speed of rotation, with the
-small clearance (left) and the large one (right). The first row is the horizontal motion
-x, the second the vertical motion y, the third the amplitude of the stator's x over that
-of the rotor's. The amplitude of a displacement is half the difference between its largest
-and its smallest value in one turn; the paper defines neither it (D-10) nor the range of
-speeds (D-19).
+small clearance (left) and the large one (right). The first two rows are the horizontal
+motion x, on a linear and on a logarithmic scale; the third is the vertical motion y, the
+fourth the stator's amplitude of x over the rotor's. The amplitude of a displacement is
+half the difference between its largest and its smallest value in one turn; the paper
+defines neither it (D-10) nor the range of speeds (D-19).
 
 The peak is the resonance of both bodies moving as one: the unbalance presses them
 together, and they vibrate like a single mass on both suspensions. Its speed follows from
-their masses and natural frequencies alone (Table 1). With the small clearance the curves
-have kinks between 10 and 19 Hz. There the force of the unbalance is about as large as the
-weight, and contact may be lost during a turn.
+their natural frequencies (Table 1) and masses (D-13) alone. With the small clearance the
+curves have kinks between 10 and 19 Hz. There the force of the unbalance is about as large
+as the weight, and contact may be lost during a turn.
 
 Each curve is computed in three ways. Harmonic balance assumes a motion that repeats after
 one turn and finds its Fourier coefficients; the solutions at the last speeds predict the
 one at the next (Eqs 19 to 21). This is done once with rising and once with falling speed.
 Where the two differ, several periodic solutions exist at one speed. A gap is a speed at
-which none was found.
+which no solution was found.
 
-Time integration is the check, at fewer speeds, from rest until the motion has settled,
-and looked at twelve times in a vibration of the contact, which rings some hundred times
-in a slow turn. A full point is a motion that repeats after one turn; its distance from
-the curve is the error of harmonic balance. An open point is a motion that does not, and
-there the curve does not describe what the machine does after a start from rest. With the
-large clearance most speeds below the resonance are of this kind, and at low speeds the
-curve has wide gaps. The figure says nothing about stability; the figure `stability`
-does. */
+Time integration is the check, at fewer speeds. It starts from rest and continues until
+the motion is steady. The motion is recorded twelve times per vibration of the contact,
+which vibrates some hundred times in a slow turn. A full point is a motion that repeats
+after one turn; its distance from the curve is the error of harmonic balance. An open
+point is a motion that does not; there the curve does not describe the motion after a
+start from rest. With the large clearance most speeds below the resonance are of this
+kind, and at low speeds the curve has wide gaps. The figure says nothing about stability;
+the figure `stability` does. */
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
 #include "io/program.hpp"

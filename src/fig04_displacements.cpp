@@ -6,8 +6,7 @@ Run: `build/fig04_displacements > data/generated/fig04_displacements.tsv`
 
 At 13.4 Hz harmonic balance and time integration lie close together, although harmonic
 balance assumes that the motion repeats after one turn of the rotor, and the integrated
-motion does not. The paper chose this speed to show that both methods agree on a
-complicated motion.
+motion does not. Fig. 4 of the paper shows its solution at this speed.
 
 The force of the unbalance is about as large as the weight here. It nearly lifts the rotor
 off the balls below it once in every turn; contact is lost and met again several times
@@ -23,8 +22,8 @@ contact; inside the circle of radius δ no ball is pressed.
 After its transient the integrated motion is observed once per turn. The scatter of these
 observations, over the largest displacement, is the spread; above a millionth the motion
 is called not T-periodic. Here the spread is a few per cent, and the difference of the two
-methods is about twice as large. It does not measure the accuracy of harmonic balance: the
-periodic solution approximates a motion that does not occur.
+methods is about twice as large. This difference does not measure the accuracy of harmonic
+balance: the periodic solution approximates a motion that does not occur.
 
 The difference is given in two ways. That of the displacements is the root mean square
 (rms) of the difference of both motions about their means, over the rms of the integrated

@@ -21,13 +21,13 @@ accuracy of harmonic balance. The integrated motion repeats after one turn to te
 so both methods compute the same motion, and their difference is the error of the Fourier
 series that ends after six harmonics.
 
-The force has a larger error than the displacements for two reasons. Eight balls in each
-turn pass through the loaded side, so the force has harmonics around the eighth, which the
-series leaves out. And the force depends on the penetration of the balls, a small
-difference of two large displacements: rotor and stator move by millimetres, but relative
-to each other by about a hundredth of that. A small error of the displacements may
-therefore be a large error of the contact forces. The force in the table is Eq. 6 along
-either motion, not a Fourier series of its own. */
+The force has a larger error than the displacements for two reasons. First, eight balls
+pass through the loaded side in each turn, so the force has harmonics around the eighth,
+which the series leaves out. Second, the force depends on the penetration of the balls, a
+small difference of two large displacements: rotor and stator move by millimetres, but
+relative to each other by about a hundredth of that. A small error of the displacements
+may therefore be a large error of the contact forces. The force in the table is Eq. 6
+along either motion, not a Fourier series of its own. */
 #include "balance/find.hpp"
 #include "figures/panels.hpp"
 #include "io/program.hpp"

@@ -35,15 +35,15 @@ The motion is then observed once per turn. The widest range of these observation
 displacement, divided by the largest displacement, is the spread. A motion with a spread
 below one millionth counts as T-periodic.
 
-Where the motion is T-periodic, the difference of the two is the error of harmonic
+Where the motion is T-periodic, the difference of the two motions is the error of harmonic
 balance, since the integration is far more accurate than six harmonics. The rms error is
 the root mean square of the difference of both motions about their means, over the rms of
 the integrated motion about its mean. The static deflection does not count: at low speed
-it is much larger than the orbit and would hide a poor solution. Up to an rms error of 10
-% the panel draws the solution of harmonic balance in colour over the integrated motion in
-grey. Above 10 % harmonic balance does not represent the motion, and the panel draws the
-integrated motion alone: this happens at 3 Hz, where six harmonics miss the ripple. The
-table has the error of the bearing's force and the largest error of a displacement as
+it is much larger than the orbit and would hide a poor solution. Up to an rms error of
+10 % the panel draws the solution of harmonic balance in colour over the integrated motion
+in grey. Above 10 % harmonic balance does not represent the motion, and the panel draws
+the integrated motion alone: this happens at 3 Hz, where six harmonics miss the ripple.
+The table has the error of the bearing's force and the largest error of a displacement as
 well.
 
 Where the motion is not T-periodic, no T-periodic solution can represent it, and the panel

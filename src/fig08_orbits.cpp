@@ -5,8 +5,9 @@ Paper: §3.3, Fig. 8, data set 2.
 Run: `build/fig08_orbits > data/generated/fig08_orbits.tsv`
 
 With ten times the clearance the motion does not repeat after one turn at five of the nine
-speeds, from 6 to 30 Hz. This is our largest difference from the paper, which describes
-the same three phases as for the small clearance (claim C13).
+speeds, from 6 to 30 Hz. This is our largest difference from the paper, which takes
+periodic solutions there. The three phases of the small clearance appear here too (claim
+C13).
 
 Data set 2 differs from data set 1 in the clearance alone. A larger clearance gives the
 rotor more room to move before it meets a ball. Where weight and unbalance are comparable,
