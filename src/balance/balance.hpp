@@ -1,8 +1,8 @@
 /**
 # Harmonic balance by alternating frequency and time (Eqs 8 to 16)
 
-The coefficients of a periodic motion are solved for, and its force is evaluated in time.
-A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
+Newton's method solves for the coefficients of a motion; its force is evaluated in time. A
+system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
 
 $$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
 
@@ -24,7 +24,7 @@ residual
 
 $$R_h = A_h q_h + B_h f_h(q) - c_h \tag{16}$$
 
-takes the force through time: Γ⁻¹, the force at each sample, Γ (Cameron and Griffin). The
+evaluates the force in time: Γ⁻¹, the force at each sample, Γ (Cameron and Griffin). The
 Jacobian is A + J with
 
 $$J = \Gamma\, \mathrm{diag}\!\left(\partial f/\partial q\,(\varphi_k)\right)

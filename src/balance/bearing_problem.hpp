@@ -13,7 +13,7 @@ divided by σ = |Z_s Z_r| + k|Z_s + Z_r|, with k the stiffness of one loaded bal
 term is a length of the order of the penetration, for soft and stiff suspensions, low and
 high harmonics alike. These are A, B and c of Eq. 16 (balance.hpp) for two masses.
 
-All is written for two frequencies and for periods of several turns. */
+The equations hold for two frequencies and for periods of several turns too. */
 #pragma once
 
 #include "balance/balance.hpp"

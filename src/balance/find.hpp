@@ -3,9 +3,9 @@
 
     PeriodicMotion six = find_near_contact({parameters, omega, 6});
 
-The starts of Newton's method are, in this order: given ones, as the solution at a
+The starts of Newton's method are, in this order: given ones, such as the solution at a
 neighbouring speed; quasi-static contact; the solution with fewer harmonics.
-motion/find_periodic has more. */
+motion/find_periodic adds further starts. */
 #pragma once
 
 #include <string>

@@ -14,9 +14,9 @@ $$(A + J)\,\Delta X = -R. \tag{15}$$
 
 J is the derivative of the force, B J where the force has a factor B (balance.hpp). The
 code's `step` is -ΔX and its `length` λ, which is 1 and halved until the residual
-decreases. A step by the factors of an earlier point is taken whole, and only if it leaves
-a tenth of the residual. Both criteria of the paper are reported, relative to the
-problem's scales (D-22):
+decreases. A step by the factors of an earlier point is not shortened; it is taken only if
+it reduces the residual to a tenth. Both criteria of the paper are reported, relative to
+the problem's scales (D-22):
 
 $$\delta_1 = \|R\|, \tag{17}$$
 

@@ -1,8 +1,8 @@
 /**
 # A periodic motion
 
-What one method hands on to the next: a speed, the coefficients of the relative motion at
-a list of harmonics, and how they were found. */
+One method passes it to the next: a speed, the coefficients of the relative motion at a
+list of harmonics, and how they were found. */
 #pragma once
 
 #include <Eigen/Core>

@@ -2,10 +2,10 @@
 # Pseudo-arc-length continuation
 
 A response curve is followed by its arc length, so that it may turn back where it folds. A
-step that passes an earlier point of the branch has closed a loop, or has hopped onto a
-leg that was followed already. A point that lies near a step is corrected from the step's
-cubic in the plane across the point's own tangent: the same solution comes out, or
-another. */
+step that passes an earlier point of the branch has closed a loop, or has jumped to a part
+that was followed already. To decide whether a point near a step lies on it, the corrector
+starts on the step's cubic, in the plane perpendicular to the point's tangent: it finds
+the point again, or another solution. */
 #pragma once
 
 #include <functional>

@@ -2,8 +2,8 @@
 # A branch of solutions
 
 A branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref), in which a step along it
-is measured. It is a row of solutions with the unit tangent at each; between two of them
-the cubic with both tangents stands for it. */
+is measured. It is a sequence of solutions with the unit tangent at each, and between two
+of them the cubic with both tangents. */
 #pragma once
 
 #include <Eigen/LU>

@@ -2,13 +2,13 @@
 # Stability and bifurcations along a branch
 
 Where the Floquet multipliers leave or enter the unit circle, the solution gains or loses
-its stability. The bifurcations that are told apart:
+its stability. These bifurcations are distinguished:
 
 - A fold, where the tangent's speed component vanishes (the branch has located it
   already);
 - a multiplier passes +1, where Π (1 - μ_i) changes its sign. For an exact motion that is
-  a fold, or the branching point of another branch; along a series cut at m harmonics,
-  whose fold is that of the cut equations, the two differ;
+  a fold, or the branching point of another branch; along a series truncated at m
+  harmonics, whose fold is that of the truncated equations, the two differ;
 - a period doubling, where a multiplier passes -1: Π (1 + μ_i);
 - a Neimark-Sacker point, where a complex pair passes the unit circle: Π (1 - μ_i μ_j), i
   < j, which is the bialternate product. It also vanishes where two real multipliers have

@@ -1,8 +1,8 @@
 /**
 # A curve of solutions
 
-What is followed by its arc length: n equations in the n + 1 scaled unknowns y = (X/ℓ,
-ω/ω_ref), of harmonic balance or of shooting.
+A curve is given by n equations in the n + 1 scaled unknowns y = (X/ℓ, ω/ω_ref), of
+harmonic balance or of shooting, and followed by its arc length.
 
     Balance balance(bearing_problem(parameters, samples), harmonics);
     BalanceCurve curve(balance, settings);

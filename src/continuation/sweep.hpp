@@ -12,7 +12,7 @@ rad/s and ω alone decides (D-03). Summed up,
 
 $$S_0 = 0, \quad S_{i+1} = S_i + \delta s_{i+1}, \quad S_4 = S_3 + \Delta s, \tag{21}$$
 
-they are the argument of the cubic through the four points, which is read at S_4:
+they are the argument of the cubic through the four points, which is evaluated at S_4:
 
 $$(X_4, \omega_4) = \sum_{i=0}^{3} \Big(\prod_{j \ne i} \frac{S_4 - S_j}{S_i - S_j}\Big)\,
 (X_i, \omega_i). \tag{20}$$

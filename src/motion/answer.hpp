@@ -1,26 +1,25 @@
 /**
-# What the machine does: the one answer
+# The motion after a start from rest
 
 Eq. 7 is integrated from rest until it has settled (`settle`). What follows depends on
 its kind:
 
 - `rest`: the static equilibrium, error 0.
 - `periodic`: shooting closes the motion over its K base periods, within 1e-2 of the sizes
-  of where integration ended, and gives its multipliers; the error is what a hundredth of
-  the local error changes. Where shooting fails, or a stepper is asked for, it is
+  of where integration ended, and gives its multipliers. The error is the change when the
+  local error is a hundredth. If shooting fails, or a stepper is asked for, the motion is
   recorded.
-- Every other motion is recorded. Where neighbours contract it is stable, and recorded
-  twice from `settled.before`, the second time with half the step, or a fourth of the
-  local error: that one is `motion`, its difference from the first and what is left of the
-  transient are the error. With a tolerance the step is halved six times at most. Where
-  the budget is too small there is no error.
-- Where they do not contract, the record depends on rounding: no error, `undecided`.
+- Every other motion is recorded. If neighbours converge, it is stable and recorded twice
+  from `settled.before`, the second time with half the step or a fourth of the local
+  error. The second record is `motion`; its difference from the first plus the rest of the
+  transient is the error. With a tolerance the step is halved at most six times. If the
+  budget is too small, there is no error.
+- If neighbours do not converge, the record depends on rounding: no error, `undecided`.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
 
-Solutions of harmonic balance are asked for by their number of harmonics, and judged in
-motion/judge.hpp. */
+Solutions of harmonic balance have a number of harmonics instead; see motion/judge.hpp. */
 #pragma once
 
 #include <optional>

@@ -1,9 +1,9 @@
 /**
 # The contact of the balls along a motion
 
-The force Q_j of every ball over two periods, 2T: with the paper's ω_cage = ω/2 the
-rotating contact passes each ball once in 2T (D-11, D-20). Other bearings keep the two
-periods by convention. */
+The force Q_j of every ball is given over two periods, 2T. With the paper's ω_cage = ω/2
+the rotating contact passes each ball once in 2T (D-11, D-20); for other bearings two
+periods are a convention. */
 #pragma once
 
 #include "motion/motion.hpp"

@@ -4,14 +4,14 @@
     PeriodicMotion six = find_periodic({parameters, omega, 6});
     Judged exact = to_tolerance({parameters, omega, 6}, 1e-3);
 
-Where no solution is near quasi-static contact (balance/find), Newton starts from the
-motion that Eq. 7 settles on from rest, or from the end of the branch from a lower speed;
-of a motion that repeats itself after K turns only, from one that shooting has closed.
+If the starts of balance/find lead to no solution, Newton starts from the motion that
+Eq. 7 settles on from rest, or from the end of the branch from a lower speed; for a motion
+that repeats only after K turns, from one that shooting has closed.
 
-A solution does not know its own error. It is the distance from the motion of Eq. 7 that
-shooting closes near it, and a tolerance is met by twice as many harmonics until that is
-small enough. The motion is closed from the first solution, and anew when doubling does
-not halve the distance. */
+The error of a solution is its distance from the motion of Eq. 7 that shooting closes near
+it. With a tolerance the harmonics are doubled until the distance is small enough.
+Shooting closes the motion from the first solution, and anew when doubling does not halve
+the distance. */
 #pragma once
 
 #include <random>

@@ -1,14 +1,14 @@
 /**
 # The verdict on a solution
 
-A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance,
-as shooting finds it from the solution's states at eight phases, together and each alone.
-It is `stable` or `unstable` when the largest multiplier is farther from the unit circle
-than its uncertainty, at most 0.1: what closing the motion again with a hundredth of the
-local error changes, and what the reduction of large bodies may. It is `undecided` besides
-where that motion is more than ten times as far as Newton's first correction says, or one
-of the opposite stability less than twice as far. Where Newton's corrections shrink at
-once the eight phases are not tried alone.
+A verdict concerns the motion of Eq. 7 nearest to a solution of harmonic balance. Shooting
+finds it from the solution's states at eight phases, together and each alone; where
+Newton's corrections shrink at once, the phases are not tried alone. The verdict is
+`stable` or `unstable` if the largest multiplier is farther from the unit circle than its
+uncertainty, at most 0.1: the change when the motion is closed again with a hundredth of
+the local error, and that by the reduction of large bodies. Otherwise it is `undecided`;
+also if the motion is more than ten times as far away as Newton's first correction
+predicts, or a motion of the opposite stability less than twice as far.
 
     const Verdict verdict = judge(parameters, solution, budget);
     // verdict.word(), verdict.floquet.largest(), verdict.distance.rms */

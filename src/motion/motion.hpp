@@ -1,8 +1,8 @@
 /**
 # Motions: what harmonic balance and time integration both give
 
-A motion is a row of displacements of both bodies at equal phases. Figures are computed
-from it alone, so that the two methods meet in the same table. */
+A motion holds the displacements of both bodies at equally spaced phases. Figures are
+computed from it alone, so that both methods enter the same table. */
 #pragma once
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 /**
 # Motions with two frequencies by harmonic balance
 
-What integration says of them is in motion/answer. Harmonic balance on the harmonics
-(k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to a sum, or on the largest lines of
-the motion that Eq. 7 settles on from rest, twice as many of them until the solution is
-near enough to the motion of Eq. 7. That is the one from rest or, where doubling does not
-halve the distance from it, the one that integration from the solution comes to.
+The harmonics (k_1, k_2) have the frequencies k_1 ω + k_2 n ω_cage. They are all orders up
+to a sum, or the largest lines of the motion that Eq. 7 settles on from rest; the number
+of lines is doubled until the solution is near enough to a motion of Eq. 7. This is the
+one from rest or, if doubling does not halve the distance from it, the one that
+integration from the solution settles on. Integrated motions are in motion/answer.
 
     Torus found = torus_to_tolerance({parameters, omega}, 1e-3); */
 #pragma once

@@ -1,11 +1,11 @@
 /**
 # Regime of a motion: contact and shape
 
-What claims C4 to C7, C10 and C13 speak of, as numbers per speed: whether contact is
+Claims C4 to C7, C10 and C13 are judged by numbers per speed: whether contact is
 permanent, whether the orbits have one harmonic or many, how often a ball is passed, how
-large the ball forces are. The motion is integrated in time; where harmonic balance finds
-a periodic solution the integration starts from it, which shortens the transient and
-decides nothing: the integrated motion is what is judged. */
+large the ball forces are. The numbers are those of the integrated motion. If harmonic
+balance finds a periodic solution, integration starts from it; this shortens the
+transient, and selects the motion where several exist. */
 #pragma once
 
 #include "io/toml_file.hpp"

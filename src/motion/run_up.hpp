@@ -1,20 +1,21 @@
 /**
 # A speed that changes evenly
 
-Rotor and cage turn by given angles, φ(t) = ω_0 t + α t²/2 and c φ. The drive that this
-takes is not modelled. The unbalance pushes the rotor by
+The angles of rotor and cage are prescribed, φ(t) = ω_0 t + α t²/2 and c φ. The torque of
+the drive is not modelled. The force of the unbalance on the rotor is
 
 $$m_e e \left(\omega^2 \cos\varphi + \alpha \sin\varphi,\;
               \omega^2 \sin\varphi - \alpha \cos\varphi\right),$$
 
-the second derivative of its place with the sign turned. All else of Eq. 7 stays.
+minus the second derivative of its position. The rest of Eq. 7 is unchanged.
 
     RunUp run{.from = angular(10), .to = angular(60), .seconds = 30};
     for (const PassedTurn& turn : run_up(parameters, run, budget))
       … turn.speed, turn.amplitude[2] …
 
-Where the run begins above standstill the machine has settled there. Checked against a
-linear rotor integrated apart and motions at fixed speed (tests/unit/runup.py). */
+A run that begins above standstill starts from the steady motion there. Tests compare with
+a linear rotor, integrated separately, and with motions at fixed speed
+(tests/unit/runup.py). */
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 /**
 # Eigenvalues of real matrices
 
-Eigen's solver, compiled once: it takes ten seconds in every source that asks for it. */
+Eigen's solver is compiled once, since each source that includes it takes ten seconds. */
 #pragma once
 
 #include <Eigen/Core>

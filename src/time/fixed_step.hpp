@@ -2,23 +2,23 @@
 # Two rules of order 4 with a fixed step, of several motions side by side
 
 `rk4` is the classical Runge-Kutta method, the paper's rival: four evaluations of Eq. 7 in
-a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan [1]: Eq.
-7 falls into a drift, q̇ = v and v̇ = -(c/m) v, and a kick, v̇ = a(q, t), both solved
-exactly. A step of seven drifts and six kicks, each an evaluation, may be four times as
-long as that of rk4 at the same error, and damps no vibration of the contact, where rk4
-takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's contact alone, intact
-and undamped (`is_elastic_hertz`).
+a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan [1]:
+Eq. 7 is split into a drift, q̇ = v and v̇ = -(c/m) v, and a kick, v̇ = a(q, t), both
+solved exactly. A step of seven drifts and six kicks, each an evaluation, may be four
+times as long as that of rk4 at the same error, and damps no vibration of the contact,
+where rk4 takes (hω)⁶/144 of the amplitude in each step h. It applies to Hertz's contact
+alone, intact and undamped (`is_elastic_hertz`).
 
-The step divides the output interval. The directions of rotor and cage go on by complex
-products and are computed anew after at most 128 steps.
+The step divides the output interval. The directions of rotor and cage are advanced by
+complex products and computed anew after at most 128 steps.
 
     FixedStep rk4(parameters, omega, 64, default_step(parameters), Rule::rk4);
     State state = static_start(parameters);
     rk4.advance(0, state);                  // over the first of 64 intervals
 
-Several motions are fastest where their numbers lie side by side in the registers of the
-processor (side_by_side.hpp). Each has its own machine, speed, step and phase, and the
-bits that it has alone.
+Several motions are integrated fastest side by side in the registers of the processor
+(side_by_side.hpp). Each has its own machine, speed, step and phase, and the same bits as
+alone.
 
 [1] S. Blanes, P. C. Moan, Practical symplectic partitioned Runge-Kutta and
 Runge-Kutta-Nyström methods, J. Comput. Appl. Math. 142 (2002) 313-330. */

@@ -1,17 +1,17 @@
 /**
 # All degrees of freedom of bodies given by matrices, however many
 
-Gauss's implicit Runge-Kutta rule of two stages has order 4 and takes any step with the
+Gauss's implicit Runge-Kutta rule of two stages has order 4 and allows any step with the
 stiff part of the equations (Hairer and Wanner, Solving Ordinary Differential Equations
 II, IV.5 and IV.8). The accelerations W of both stages of a step h solve
 
 $$M W + C\,(v 1^T + h W A^T) + K\,(q 1^T + h v (A1)^T + h^2 W (A^2)^T) = P - D F,$$
 
-C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: one
-sparse system M + hλ C + h²λ² K, factored for each step size, answers the loads and the
-unit forces of the joints: bearings, and elements to the ground. What is left for each
-step are the relative displacements at both stages, 4 unknowns a joint, with their rates 8
-where a force depends on these, solved by Newton. */
+where C includes ωG. A complex eigenvector of Aᵀ with the eigenvalue λ separates the
+stages. The sparse matrix M + hλ C + h²λ² K, factored for each step size, gives the
+responses to the loads and to unit forces at the joints: bearings, and elements to the
+ground. Newton's method then solves for the relative displacements at both stages, 4
+unknowns per joint, or 8 with their rates if a force depends on these. */
 #pragma once
 
 #include <Eigen/SparseLU>

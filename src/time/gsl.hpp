@@ -1,7 +1,7 @@
 /**
 # GSL's ODE steppers
 
-For comparison with ours: adaptive explicit Runge-Kutta (rkf45, rkck, rk8pd),
+These serve for comparison with ours: adaptive explicit Runge-Kutta (rkf45, rkck, rk8pd),
 variable-order multistep (msadams, msbdf) and the implicit Bulirsch-Stoer method (bsimp).
 The last two use the analytic Jacobian of Eq. 7. The step size keeps the local error of
 each component below the tolerance times its size.

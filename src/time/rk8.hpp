@@ -4,14 +4,14 @@
 The pair of Dormand and Prince (dop853.hpp) on Eq. 7: the local error of each step, its
 largest component over the size of that component (`state_scales`), stays below the
 tolerance. Steps divide what is left of an output interval evenly; a step that keeps its
-length takes no sine or cosine.
+length needs no sine or cosine.
 
     Rk8 rk8(parameters, omega, 64, 1e-10);
     State state = static_start(parameters);
     rk8.advance(0, state);           // over the first of 64 intervals of the base period
 
-Beside the state go, where they are asked for, eight disturbances of it by the variational
-equations of Eq. 7: the derivative of the map over an interval. They have no say in the
+On request, eight disturbances of the state are integrated too, by the variational
+equations of Eq. 7: the derivative of the map over an interval. They do not control the
 steps, but may vibrate on the contact: at least six steps are taken in a period of that
 vibration. */
 #pragma once

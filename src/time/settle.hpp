@@ -1,10 +1,10 @@
 /**
-# What a machine does after a start
+# The motion after a start
 
-Eq. 7 is integrated from a state, with a neighbour beside it (trajectory_pair.hpp). A
-transient that dies out is over when their distance has shrunk to 1e-9 of its largest
-value; its mean growth λ, the largest Lyapunov exponent, and the Poincaré section decide
-the kind of the motion. The first that holds:
+Eq. 7 is integrated from a state, together with a neighbour (trajectory_pair.hpp). A
+transient that decays is over when their distance has shrunk to 1e-9 of its largest value.
+The mean growth rate λ of the distance, the largest Lyapunov exponent, and the Poincaré
+section decide the kind of the motion, the first of these that holds:
 
 - `rest`: half of the range of every displacement, and speed times base period, are below
   1e-12 of clearance plus static deflection.
@@ -20,26 +20,27 @@ the kind of the motion. The first that holds:
 integrated; d is 3s and what the step may change in λ. The last two kinds are decided
 after 4 to 50 s at the earliest.
 
-Integration starts at or before t = 0 and ends after it; before, only where neighbours
-have come nearer by 1e-9 and the motion is at rest or closes. A periodic motion is then
-said to begin at t = 0. The state of a motion that two frequencies drive belongs to its
-instant: where neighbours contract, it is taken as that of so early an instant that
-contraction forgets the difference by t = 0, and integrated from there, if that takes at
-most 1e8 evaluations. Every other motion begins where the integration ended.
+Integration starts at or before t = 0. It ends before t = 0 only if neighbours have
+converged by 1e-9 and the motion is at rest or closes; a periodic motion then begins at
+t = 0. The state of a motion that two frequencies drive belongs to its instant. If
+neighbours converge, the state is assigned to an instant so early that the difference
+decays by t = 0, and integrated from there, if that takes at most 1e8 evaluations. Every
+other motion begins where the integration ended.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
     const Settled settled =
         settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
-An impact may make the contact vibrate too fast for the step: the integration diverges, or
-keeps up a motion that Eq. 7 does not have. What was found is therefore followed for one
-base period with a quarter of the step. Where that leads elsewhere, or where it diverged,
-the motion is begun again once with such steps; with a fixed step it is `undecided`, or
-lost.
+An impact may make the contact vibrate too fast for the step: the integration then
+diverges, or sustains a motion that Eq. 7 does not have. The motion found is therefore
+followed for one base period with a quarter of the step. If that leads elsewhere, or if
+integration diverged, it is repeated once with such steps; with a fixed step the motion is
+`undecided`, or lost.
 
-A `Settling` is the same among others (side_by_side.hpp). The machine is that of `over`,
-whose angles are counted per base period; where two frequencies drive, per turn. */
+A `Settling` does the same side by side with others (side_by_side.hpp). The machine is
+that of `over`, whose angles are counted per base period; where two frequencies drive, per
+turn. */
 #pragma once
 
 #include <string>

@@ -2,18 +2,18 @@
 # Shooting: the periodic motion as a fixed point of the period map
 
 P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational
-equations. Unstable motions are found like stable ones: the fair rival of harmonic
-balance, and an independent check of it.
+equations. It finds unstable motions like stable ones, as harmonic balance does, and
+checks that method independently.
 
-Where disturbances grow a hundred-thousandfold in a period, the motion is held by its
-states at eight equal phases; each is integrated over an eighth, and Newton's iteration is
-for the eight states together (multiple shooting).
+Where disturbances grow by 1e5 in a period, the unknowns are the states at eight equal
+phases. Each is integrated over an eighth of the period, and Newton solves for the eight
+states together (multiple shooting).
 
     Eighths motion = eighths_of(solution);
     const Shooting shooting = shoot(parameters, omega, motion,
                                     {.tolerance = 1e-11, .closed = 1e-8});
 
-Steps are shortened until the next correction, by the same derivative, is smaller
+Steps are shortened until the next correction with the same derivative is smaller
 (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3). */
 #pragma once
 

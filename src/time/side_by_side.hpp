@@ -1,10 +1,10 @@
 /**
 # Several motions side by side
 
-Many motions (a response, a map, many starts) take least time when as many go on at once
-as the registers of the processor hold. What integrates is then a traveller: it says which
-way it goes next, and is told when it has arrived. Each has the bits that it has alone,
-and what ends one ends no other.
+Many motions (a response, a map, many starts) take least time when as many are integrated
+at once as the registers of the processor hold. Each integration is a traveller: it gives
+the passages to be made next, and is told when they have been made. Its result has the
+same bits as alone, and one that ends does not end the others.
 
     Settling one(machine, omega, base, start), two(machine, 2 * omega, base, start);
     travel(std::vector<Traveller*>{&one, &two});

@@ -1,7 +1,7 @@
 /**
 # Steady state by time integration, and whether it is periodic
 
-How the figures of the paper integrate; what `explore` answers comes from time/settle.
+The figures of the paper integrate in this way; `explore` uses time/settle instead.
 Transients are counted in seconds, in which they decay (D-16). The spread is the largest
 distance between the points of the Poincaré section of the last `window` seconds, over the
 largest displacement of the orbit. Integration ends when it falls below `settled`, or
@@ -10,8 +10,8 @@ after `longest` seconds; the motion is then called periodic if the spread is bel
 
 Only averages of a chaotic motion are the same on all processors. The spread of an
 aperiodic motion is therefore the mean over the windows of the second half of the
-integration, with its standard error; with `average`, over the windows of so many seconds
-more, which are recorded. */
+integration, with its standard error; with `average`, over the windows of that many
+further seconds, which are recorded. */
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 /**
 # A motion and its neighbour
 
-The largest Lyapunov exponent is the mean rate at which two neighbouring motions part,
+The largest Lyapunov exponent is the mean rate at which two neighbouring motions separate,
 
 $$\lambda = \lim_{t \to \infty} \frac{1}{t} \ln \frac{|\delta(t)|}{|\delta(0)|},$$
 
