@@ -1,8 +1,7 @@
 /**
 # What a Poincaré section says about a motion, and means over many periods
 
-The section is the displacements at one instant of successive base periods.
-*/
+The section is the displacements at one instant of successive base periods. */
 #pragma once
 
 #include <span>
