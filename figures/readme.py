@@ -58,7 +58,7 @@ that it admits the verdicts on {{claims.changing}} change.
 **Period.** The motion that time integration reaches from rest repeats with every turn at {{periodic_1:.0%}} of the
 speeds (set 1) and {{periodic_2:.0%}} (set 2). At the others no solution with the period of rotation can represent it.
 
-**Accuracy.** Where the unbalance rules, few harmonics give the displacements: at {{high.f:.0f}} Hz (set 1) the rms error of
+**Accuracy.** Where the unbalance dominates, few harmonics give the displacements: at {{high.f:.0f}} Hz (set 1) the rms error of
 six harmonics is {{high.rms:.4%}} of the motion about its mean, and the bearing's force is wrong by up to {{high.force:.1%}} of its
 largest value there (with the large clearance and ten harmonics {{accuracy.large_force:.0%}}). At {{low.f:.0f}} Hz these errors are {{low.rms:.0%}} and {{low.force:.0%}}.
 
