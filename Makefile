@@ -58,9 +58,10 @@ sources := $(shell find src data/bearings -type f) $(wildcard studies/*.cpp stud
 build/.built: $(sources)
 	@mkdir -p build; [ "$$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' build/CMakeCache.txt 2> /dev/null)" -ef . ] || \
 	  rm -rf build/CMakeCache.txt build/CMakeFiles
+	@touch $@.begun  # what is edited meanwhile is newer
 	flock build/.lock cmake --preset release > build/configure.log
 	flock build/.lock cmake --build --preset release
-	@touch $@
+	@mv $@.begun $@
 $(patsubst %.cpp,build/%,$(notdir $(wildcard src/*.cpp studies/*.cpp))): build/.built
 	+@:
 build/environment.txt: paper/environment.py build/.built

@@ -1,6 +1,5 @@
 #include "time/gauss.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -30,10 +29,10 @@ struct GaussRule {
     const double d = std::sqrt(3.0) / 6;
     a << 0.25, 0.25 - d, 0.25 + d, 0.25;
     c << 0.5 - d, 0.5 + d;
-    const Eigen::EigenSolver<Eigen::Matrix2d> parts(a.transpose());
-    lambda = parts.eigenvalues()[0];
-    s = parts.eigenvectors().col(0);
-    t = parts.eigenvectors().inverse().row(0).transpose();
+    lambda = {0.25, 0.5 * d};
+    const double q = 0.5 * d / (0.25 + d);
+    s << 1, Complex(0, q);
+    t << 0.5, Complex(0, -0.5 / q);
   }
 };
 
