@@ -9,7 +9,7 @@ import copy
 import itertools
 
 from tests.machines import SET_1, entries, written
-from tests.support.explore import NO_NUMBER, Case, Table
+from tests.support.explore import NO_NUMBER, Case, Table, some
 
 REGIMES = {"rest", "periodic", "quasi-periodic", "chaotic", "undecided"}
 # Of 16 balls pass in a turn: 7, 61/9, nearly 7, 6.9136, and no ratio.
@@ -81,7 +81,7 @@ class Corners(Case):
                 self.ends_well((corner,), cage)
 
     def test_pairs(self):
-        for corners in itertools.combinations(CORNERS, 2):
+        for corners in some(itertools.combinations(CORNERS, 2), 2):
             self.ends_well(corners, CAGES[3])
 
     def test_all_together_and_all_but_one(self):

@@ -27,7 +27,7 @@ from hypothesis import strategies as st
 
 from tests.hard import odd
 from tests.machines import SET_1, decade, entries, extreme_machine, of_another_kind, written
-from tests.support.explore import EXPLORE, NO_NUMBER, SANITIZED
+from tests.support.explore import EXPLORE, FULL, NO_NUMBER, SANITIZED
 
 # Evaluations of the force: a few milliseconds of work.
 LITTLE = "1e5"
@@ -489,8 +489,9 @@ ONCE_TOO_CHEAP = [
 
 
 def examples(count):
-    """Settings and seed of a test that draws `count` questions."""
-    drawn = settings(max_examples=count * int(os.environ.get("EXAMPLES", 1)), deadline=None, database=None,
+    """Settings and seed of a test that draws `count` questions, half as many without FULL."""
+    times = float(os.environ.get("EXAMPLES", 1)) * (1 if FULL else 0.5)
+    drawn = settings(max_examples=round(count * times), deadline=None, database=None,
                      derandomize="SEED" not in os.environ, print_blob=False,
                      suppress_health_check=list(HealthCheck))
     return lambda test: drawn(seed(int(os.environ.get("SEED", 0)))(test))

@@ -17,7 +17,13 @@ AMPLITUDES = [f"amp_{name}" for name in NAMES]
 RESPONSE = ["--from", "20", "--to", "21"]
 ORBIT = ["--frequency", "45", "--points", "4"]
 SANITIZED = "SANITIZED" in os.environ  # slower, ten times and more
+FULL = "FULL" in os.environ  # as `make test-all` sets it
 NO_NUMBER = re.compile(r"(?<![^\W_])(nan|inf|infinity)(?![^\W_])", re.IGNORECASE)
+
+
+def some(cases, every):
+    """Each `every`-th of them, the first included; all with FULL."""
+    return list(cases)[::1 if FULL else every]
 
 
 def changed(text=MACHINE, **values):

@@ -17,7 +17,7 @@ import numpy as np
 
 from tests.truth.independent import KEPT, NAMES, Model, displacements, errors, state_at_zero
 from tests.machines import entries, random_machine, realistic_machine, written
-from tests.support.explore import Case, Table
+from tests.support.explore import FULL, Case, Table, some
 from project import source_line
 from tables import print_columns
 
@@ -88,9 +88,9 @@ class PrintedError(Case):
 
     def test_a_few(self):
         """Would catch an estimate from as many harmonics as the solution has, which was 20 times too small for spalls of the inner race."""
-        rows = [self.row(kind, seed) for kind in range(len(KINDS)) for seed in range(3, 7)]
+        rows = [self.row(kind, seed) for kind in range(len(KINDS)) for seed in some(range(3, 7), 2)]
         judged = [row for row in rows if row[6] > 0]
-        self.assertGreater(len(judged), 6)
+        self.assertGreater(len(judged), 6 if FULL else 3)
         for row in judged:
             self.assertLess(max(row[6] / row[5], row[8] / row[7]), 2, row)
 

@@ -2,7 +2,6 @@
 give, and what is refused.
 """
 import math
-import os
 import re
 import tomllib
 from pathlib import Path
@@ -11,7 +10,7 @@ import numpy as np
 from scipy.special import ellipe
 
 from tests.truth.independent import ellipse
-from tests.support.explore import MACHINE, Case, Table
+from tests.support.explore import FULL, MACHINE, Case, Table
 
 CATALOGUE = tomllib.loads(Path("data/bearings/deep_groove.toml").read_text(encoding="utf-8"))
 C3 = 'designation = "6205"\ninternal_clearance = "C3"'
@@ -108,7 +107,7 @@ class Catalogue(Case):
         for entry in sorted(CATALOGUE["bearing"], key=lambda entry: entry["bore_m"]):
             known.setdefault(next(one["up_to_m"] for one in CATALOGUE["clearance"] if entry["bore_m"] <= one["up_to_m"]), []).append(entry)
         self.assertGreater(len(known), 5)
-        for entry in CATALOGUE["bearing"] if "FULL" in os.environ else [end for range_ in known.values() for end in (range_[0], range_[-1])]:
+        for entry in CATALOGUE["bearing"] if FULL else [end for range_ in known.values() for end in (range_[0], range_[-1])]:
             middles = [self.header(f'designation = "{entry["designation"]}"\ninternal_clearance = "{name}"', "clearance")[0]
                        for name in ["C2", "CN", "C3", "C4", "C5"]]
             self.assertEqual(middles, sorted(set(middles)))
