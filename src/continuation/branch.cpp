@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -158,13 +157,6 @@ BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool 
                                (upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n))
                       .direction;
   return point;
-}
-
-ArcLengthSettings arc_length_settings(const Parameters& parameters,
-                                      const NewtonSettings& newton)
-{
-  const SweepSettings same = sweep_settings(parameters);
-  return {newton, same.speed_scale, same.arc_unknown_scale};
 }
 
 /**

@@ -10,7 +10,6 @@ of them the cubic with both tangents. */
 #include <functional>
 
 #include "continuation/curve.hpp"
-#include "model/parameters.hpp"
 
 namespace rotor_stator {
 
@@ -22,10 +21,6 @@ struct BranchPoint {
   /** dω/ds over ω_ref [-]; changes sign at a fold. */
   double speed_direction() const { return tangent[tangent.size() - 1]; }
 };
-
-/** The settings of arc length for one machine, scaled as its sweeps are. */
-ArcLengthSettings arc_length_settings(const Parameters& parameters,
-                                      const NewtonSettings& newton = {});
 
 /** How a branch ended. `goal`: at the end of the range. `came_back`: at the edge where it
     began. `closed`: at its first point, going the same way. `on_itself`: at another of

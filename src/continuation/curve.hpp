@@ -20,19 +20,10 @@ The unknowns of shooting are the state at phase 0 over its sizes; its equations 
 
 #include "balance/balance.hpp"
 #include "balance/newton.hpp"
+#include "continuation/sweep.hpp"
 #include "time/shooting.hpp"
 
 namespace rotor_stator {
-
-/** The first three have no default: two scales of the problem and Newton's settings.
-    Steps are scaled arc lengths [-]. */
-struct ArcLengthSettings {
-  NewtonSettings newton;
-  double speed_scale;        ///< ω_ref [rad/s]
-  double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
-  double first_step = 0.01, most_step = 0.05;
-  long most_evaluations = 1000000;  ///< of the force: the bound on work
-};
 
 class Curve {
 public:

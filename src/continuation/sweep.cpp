@@ -85,7 +85,7 @@ namespace {
 struct Sweep {
   Balance& balance;
   const ColdStart& cold_start;
-  const SweepSettings& settings;
+  const ArcLengthSettings& settings;
   LagrangePredictor predictor{settings.arc_unknown_scale, settings.speed_scale};
   BalanceSolver solver{balance};  ///< keeps its factors from speed to speed
   double last_omega = 0;
@@ -137,20 +137,21 @@ struct Sweep {
 
 /** A joint to the ground moves as its body does: near the resonance of the joined bodies
     about ten times as far as their unbalance is eccentric. */
-SweepSettings sweep_settings(const Parameters& parameters)
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton)
 {
   double length = scales(parameters).length;
   if (!parameters.grounds.empty())
     length +=
         10 * parameters.unbalance / (parameters.stator.mass + parameters.rotor.mass);
-  return {.newton = {},
+  return {.newton = newton,
           .speed_scale = joint_resonance(parameters),
           .arc_unknown_scale = length};
 }
 
 std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,
                                   const ColdStart& cold_start,
-                                  const SweepSettings& settings)
+                                  const ArcLengthSettings& settings)
 {
   Sweep state{balance, cold_start, settings};
   std::vector<PeriodicMotion> motions;
@@ -167,7 +168,7 @@ std::vector<PeriodicMotion> sweep(const Parameters& parameters,
   auto motions = sweep(
       balance, omegas,
       [&](double omega) { return quasi_static_start(parameters, omega, harmonics); },
-      sweep_settings(parameters));
+      arc_length_settings(parameters));
   for (PeriodicMotion& motion : motions)
     if (motion.found()) motion.bodies = body_series(parameters, motion);
   return motions;

@@ -64,15 +64,20 @@ speed is halved (the solutions in between feed the predictor and are not kept); 
 fails too the speed has no solution on this branch, which is recorded, and the next speed
 starts anew. */
 
-struct SweepSettings {
+/** The first three have no default: Newton's settings and the two scales of Eq. 19, which
+    are all that a sweep at prescribed speeds needs. Steps are scaled arc lengths [-]. */
+struct ArcLengthSettings {
   NewtonSettings newton;
-  double speed_scale;        ///< ω_ref [rad/s] of Eq. 19
-  double arc_unknown_scale;  ///< ℓ of Eq. 19
+  double speed_scale;        ///< ω_ref [rad/s]
+  double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
+  double first_step = 0.01, most_step = 0.05;
+  long most_evaluations = 1000000;  ///< of the force: the bound on work
 };
 
-/** Those for one machine: Eq. 19 scaled by the bearing's length and by the joint
-    resonance (D-03). */
-SweepSettings sweep_settings(const Parameters& parameters);
+/** Those for one machine: scaled by the bearing's length and by the joint resonance
+    (D-03). */
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton = {});
 
 /** A start for Newton where no previous solution is at hand. */
 using ColdStart = std::function<Eigen::VectorXd(double omega)>;
@@ -86,7 +91,7 @@ inline constexpr const char* from_predictor = "predictor";
     at this speed. */
 std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,
                                   const ColdStart& cold_start,
-                                  const SweepSettings& settings);
+                                  const ArcLengthSettings& settings);
 
 /** The same for a machine, cold from quasi-static contact, with the series of both
     bodies; 0 samples are `default_samples`. Paid for from `budget`. */

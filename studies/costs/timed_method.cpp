@@ -258,7 +258,7 @@ private:
     balances_.clear();
     *force_seconds_ = 0;
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
-    SweepSettings settings = sweep_settings(task_.parameters);
+    ArcLengthSettings settings = arc_length_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) predictor_.add(before_, angular(task_.before->frequency));
     setting_ = schedule_.at(0);
@@ -410,7 +410,7 @@ class ShootingSweep : public Integration {
   void begin() override
   {
     Integration::begin();
-    predictor_ = {1, sweep_settings(task_.parameters).speed_scale};
+    predictor_ = {1, arc_length_settings(task_.parameters).speed_scale};
     jacobian_.reset();
     if (task_.before) learn(angular(task_.before->frequency), state_);
   }

@@ -31,7 +31,7 @@ EvidenceList printed_predictor(const DeviationScene& scene)
   StrictToml table = scene.table("predictor");
   const auto speeds = table.numbers("speeds_hz", Range::positive);
   if (speeds.size() != 5) table.fail("speeds_hz", "must be five");
-  const SweepSettings scaling = sweep_settings(scene.machine);
+  const ArcLengthSettings scaling = arc_length_settings(scene.machine);
   LagrangePredictor predictor(scaling.arc_unknown_scale, scaling.speed_scale);
   std::vector<PeriodicMotion> known;
   for (double frequency : speeds) known.push_back(scene.solution(frequency));
@@ -65,7 +65,7 @@ EvidenceList printed_predictor(const DeviationScene& scene)
 
 EvidenceList arc_length_scaling(const DeviationScene& scene)
 {
-  const SweepSettings scaling = sweep_settings(scene.machine);
+  const ArcLengthSettings scaling = arc_length_settings(scene.machine);
   const auto points = sweep_at(scene, scene.harmonics, scene.finest_step());
   double plain = 0, scaled = 0, least_scaled = 1;
   int pairs = 0;

@@ -72,7 +72,7 @@ TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iter
     return sweep(
         balance, omegas,
         [&](double omega) { return quasi_static_start(parameters, omega, 6); },
-        sweep_settings(parameters));
+        arc_length_settings(parameters));
   };
   const auto up = swept();
   std::reverse(omegas.begin(), omegas.end());
