@@ -141,11 +141,6 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   return parameters;
 }
 
-double cage_speed_ratio(double ball_radius, double inner_race_radius)
-{
-  return 0.5 * (1 - ball_radius / (ball_radius + inner_race_radius));
-}
-
 double rotor_speed(const Parameters& parameters, double omega)
 {
   return parameters.turns * parameters.speed_ratio * omega;

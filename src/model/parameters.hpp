@@ -207,10 +207,6 @@ void describe(Table& table, const Parameters& parameters, bool with_keys = true)
 double angular(double hertz);
 std::vector<double> angular(const std::vector<double>& hertz);
 
-/** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
-   (the paper's R; in its Eq. 2 R is the ball's, D-07). */
-double cage_speed_ratio(double ball_radius, double inner_race_radius);
-
 /** The speed of the rotor [rad/s] at the base frequency ω. */
 double rotor_speed(const Parameters& parameters, double omega);
 
