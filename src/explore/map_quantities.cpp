@@ -357,13 +357,9 @@ Quantity named(const std::string& name, const std::function<Parameters()>& machi
     return {one.columns()[0], Source::motion,
             [name](MapPoint& p) { return p.measured(name); }};
   std::vector<std::string> known;
-  std::string list;
-  for (const Quantity& q : quantities) {
-    known.push_back(q.name);
-    list += (list.empty() ? "" : ", ") + q.name;
-  }
+  for (const Quantity& q : quantities) known.push_back(q.name);
   throw BadInput("--quantity " + name + ": is not a quantity" + suggestion(name, known) +
-                 " (known: " + list + ")");
+                 " (known: " + joined(known, ", ") + ")");
 }
 
 }  // namespace

@@ -38,6 +38,13 @@ std::string printable(const std::string& text)
   return out;
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between)
+{
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : between) + word;
+  return line;
+}
+
 namespace {
 
 /** What has to be put in, left out or changed to make one word of the other, in any case:

@@ -84,6 +84,9 @@ std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)
 /** The text on one line: control characters and Unicode's ends of lines as \xNN. */
 std::string printable(const std::string& text);
 
+/** The words in a row, `between` each two of them. */
+std::string joined(const std::vector<std::string>& words, const std::string& between);
+
 /** "; did you mean …?" with the known word that is nearest to `word`, if one is near. */
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 

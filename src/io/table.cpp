@@ -42,14 +42,6 @@ std::string fifteen_digits(double number)
   return {text, end.ptr};
 }
 
-std::string joined(const std::vector<std::string>& words, char separator = '\t')
-{
-  std::string line;
-  for (const std::string& word : words)
-    line += (line.empty() ? "" : std::string(1, separator)) + word;
-  return line;
-}
-
 /** One of "rest", "45", "turns 2". */
 bool is_value(const std::string& text)
 {
@@ -151,7 +143,7 @@ void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
     words.push_back(cell.text());
   }
   lists_.emplace_back(name, cells);
-  line("row " + name + ": " + joined(words, ' '));
+  line("row " + name + ": " + joined(words, " "));
 }
 
 void Table::row(std::vector<Cell> cells)
@@ -179,7 +171,7 @@ std::string Table::beginning(TableFormat format,
       out += "# column: " + columns_[k].name + " [" + columns_[k].unit + "] " +
              columns_[k].meaning + "\n";
   }
-  return out + joined(names, format == TableFormat::tsv ? '\t' : ',') + "\n";
+  return out + joined(names, format == TableFormat::tsv ? "\t" : ",") + "\n";
 }
 
 std::string Table::row_text(const std::vector<Cell>& row, TableFormat format,
@@ -189,7 +181,7 @@ std::string Table::row_text(const std::vector<Cell>& row, TableFormat format,
   for (std::size_t k : places)
     if (k < row.size()) words.push_back(row[k].text(format));
   if (format == TableFormat::csv && words.empty()) return "";
-  return joined(words, format == TableFormat::tsv ? '\t' : ',') + "\n";
+  return joined(words, format == TableFormat::tsv ? "\t" : ",") + "\n";
 }
 
 void Table::stream(std::function<void(const std::string&)> write, TableFormat format)

@@ -441,9 +441,8 @@ void StrictToml::refuse_unknown_keys() const
   const std::vector<std::string> known(content_->asked.begin(), content_->asked.end());
   for (const std::string& key : keys()) {
     if (content_->read.contains(key)) continue;
-    std::string list;
-    for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
-    fail(key, "is not a known key here" + meant(key, known) + " (known: " + list + ")");
+    fail(key, "is not a known key here" + meant(key, known) +
+                  " (known: " + joined(known, ", ") + ")");
   }
   for (const auto& [name, inner] : content_->inner_tables)
     StrictToml(inner).refuse_unknown_keys();

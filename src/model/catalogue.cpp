@@ -84,9 +84,7 @@ StrictToml entry_of(StrictToml& table, const std::string& wanted)
   }
   std::ranges::sort(known);
   std::string advice = suggestion(wanted, known);
-  if (advice.empty())
-    for (const std::string& one : known)
-      advice += (advice.empty() ? "; there are " : ", ") + one;
+  if (advice.empty()) advice = "; there are " + joined(known, ", ");
   table.fail(designation_key, "\"" + table.string(designation_key) +
                                   "\" is not in the catalogue" + advice +
                                   "; give the bearing's dimensions instead");

@@ -26,9 +26,7 @@ void require_method(const std::string& method, std::vector<std::string> others)
 {
   others.insert(others.end(), time_methods().begin(), time_methods().end());
   if (std::ranges::find(others, method) != others.end()) return;
-  std::string list;
-  for (const auto& name : others) list += (list.empty() ? "" : ", ") + name;
-  throw BadInput("--method " + method + ": must be one of " + list);
+  throw BadInput("--method " + method + ": must be one of " + joined(others, ", "));
 }
 
 void require_bearing_of(const std::string& method, const Parameters& parameters)
