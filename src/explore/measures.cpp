@@ -119,9 +119,7 @@ double largest_of(const Eigen::VectorXd& x, bool is_closed)
   const Eigen::Index n = x.size();
   const double top = x.maxCoeff(&k);
   if (!is_closed && (k == 0 || k + 1 == n)) return top;
-  const double before = x[(k + n - 1) % n], after = x[(k + 1) % n];
-  const double bend = 2 * top - before - after;
-  return bend > 0 ? top + (after - before) * (after - before) / (8 * bend) : top;
+  return vertex(x[(k + n - 1) % n], top, x[(k + 1) % n]).height;
 }
 
 double value_of(const std::string& what, const Eigen::VectorXd& x, const Record& record)
