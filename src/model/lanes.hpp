@@ -133,15 +133,7 @@ IN_PLACE bool any_positive(Number p)
   }
 }
 
-/** Writes a number into lane `l`, and reads it. */
-template <class Number>
-IN_PLACE void put_lane(Number& row, int l, double value)
-{
-  if constexpr (lanes_in<Number> == 1)
-    row = value;
-  else
-    row[l] = value;
-}
+/** The number in lane `l`. */
 template <class Number>
 IN_PLACE double lane(const Number& row, int l)
 {

@@ -120,7 +120,7 @@ struct FixedStep::Row {
     put_numbers<Number>(half_cage, l, flow.half_.cage);
     put_numbers<Number>(q, l, state.position);
     put_numbers<Number>(v, l, state.velocity);
-    put_lane(h, l, flow.h_);
+    put_numbers<Number>(h, l, flow.h_);
     Equation7<double> e = flow.system_.equation();
     if (flow.work_ == Work::splitting) {
       for (std::size_t k = 0; k < drift.size(); ++k)
@@ -270,11 +270,6 @@ void FixedStep::advance(long interval, State& state)
   each_step(interval, [&](const Angles* at) {
     nystrom_step(h_, at, state.position, state.velocity, acceleration);
   });
-}
-
-std::size_t FixedStep::widest_row()
-{
-  return static_cast<std::size_t>(widest_registers());
 }
 
 void FixedStep::advance_row(std::span<const Passage> passages)

@@ -97,10 +97,6 @@ public:
   int balls() const { return system_.bearing().ring().count; }
   bool is_general() const { return is_general_; }
 
-  /** As many passages in a row as the registers hold: wider ones take longer than two
-      that fit. */
-  static std::size_t widest_row();
-
   /** At most so many passages that are paid, of one `work` and number of balls, none
       general. */
   static void advance_row(std::span<const Passage> passages);

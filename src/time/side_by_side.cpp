@@ -10,7 +10,8 @@ namespace rotor_stator {
 
 std::vector<Failure> advance_together(std::span<const Passage> passages)
 {
-  const std::size_t widest = FixedStep::widest_row();
+  /** As many in a row as the registers hold: wider ones take longer than two that fit. */
+  const auto widest = static_cast<std::size_t>(widest_registers());
   using Alike = std::tuple<int, FixedStep::Work>;
   struct Lane {
     Passage passage;
