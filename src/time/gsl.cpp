@@ -71,17 +71,13 @@ public:
         interval_length_(system_.period() / settings.intervals_per_period),
         driver_(nullptr, gsl_odeiv2_driver_free)
   {
-    const auto types = step_types();
-    const auto type = types.find(settings.method);
-    if (type == types.end())
-      throw BadInput("method " + settings.method + ": not one of GSL's steppers");
     /** GSL calls abort() on errors unless told otherwise. */
     static const auto handler = gsl_set_error_handler_off();
     (void)handler;
     const double first_step = std::min(interval_length_, default_step(parameters));
-    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&equations_, type->second,
-                                                     first_step, settings.tolerance, 0, 1,
-                                                     0, state_scales(parameters).data()));
+    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(
+        &equations_, step_types().at(settings.method), first_step, settings.tolerance, 0,
+        1, 0, state_scales(parameters).data()));
     if (!driver_)
       throw NoSolution(format("%s cannot start with a step of %g s and a tolerance of %g",
                               settings.method.c_str(), first_step, settings.tolerance));

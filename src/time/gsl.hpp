@@ -19,7 +19,7 @@ namespace rotor_stator {
 
 std::vector<std::string> gsl_methods();
 
-/** Throws BadInput for a method of another name. */
+/** By one of these methods. */
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
                                const StepSettings& settings);
 
