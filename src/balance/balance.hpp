@@ -37,7 +37,6 @@ a vector goes through the samples, as the residual does. */
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <span>
 #include <type_traits>
 

@@ -6,7 +6,6 @@ list of harmonics, and how they were found. */
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>

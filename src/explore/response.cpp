@@ -8,7 +8,6 @@
 #include "explore/response_branch.hpp"
 #include "explore/response_sweep.hpp"
 #include "io/errors.hpp"
-#include "io/output_file.hpp"
 #include "model/base_period.hpp"
 #include "motion/contact.hpp"
 #include "motion/lines.hpp"

@@ -1,7 +1,6 @@
 #include "explore/response_branch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 
 #include "balance/bearing_problem.hpp"
@@ -12,7 +11,6 @@
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
 #include "motion/quasi_periodic.hpp"
-#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
 
 namespace rotor_stator::figures {

@@ -24,7 +24,6 @@ struct State;
 template <class Number>
 struct DirectionOf;
 class Table;
-class OperationBudget;
 
 /** Of time/ and of balance/. */
 class Flow;

@@ -22,8 +22,6 @@ exist. The bearing's keys are in model/catalogue.hpp. */
 
 namespace rotor_stator {
 
-class SceneFile;
-
 /** A vector of the x-y plane. */
 template <class Number>
 struct Vec2Of {

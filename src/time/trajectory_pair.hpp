@@ -11,7 +11,6 @@ them. On a T-periodic motion λ is ln|μ|/T of the largest Floquet multiplier. *
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "time/section.hpp"
