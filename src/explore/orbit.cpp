@@ -20,11 +20,6 @@
 
 namespace rotor_stator::explore {
 
-bool is_periodic(const std::string& method)
-{
-  return std::ranges::find(periodic_methods, method) != periodic_methods.end();
-}
-
 void require_range(double from, double to)
 {
   if (from >= to)

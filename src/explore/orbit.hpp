@@ -15,7 +15,7 @@ namespace rotor_stator::explore {
 /** Of orbit, contact and spectrum. */
 struct MotionRequest : Request {
   double frequency = 0;  ///< [Hz]
-  /** What the machine does from rest; or one of `periodic_methods`, or a time method. */
+  /** What the machine does from rest; or a method that `is_periodic`, or a time method. */
   std::string method = "auto";
   std::optional<double> tolerance;  ///< of displacement, relative
   std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
@@ -30,9 +30,11 @@ struct MotionRequest : Request {
 Exploration explore_orbit(const MotionRequest& request);
 Exploration explore_contact(const MotionRequest& request);
 
-/** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
-inline const std::vector<std::string> periodic_methods{"aft", "shooting"};
-bool is_periodic(const std::string& method);
+/** Whether it finds a periodic motion, stable or not: harmonic balance and shooting. */
+inline bool is_periodic(const std::string& method)
+{
+  return method == "aft" || method == "shooting";
+}
 
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_rows = 1 << 20;

@@ -21,7 +21,7 @@ its motions. */
 namespace rotor_stator::explore {
 
 struct ResponseRequest : RangeRequest {
-  /** What the machine does; or a branch, by one of `periodic_methods`. */
+  /** What the machine does; or a branch, by a method that `is_periodic`. */
   std::string method = "auto";
   /** "rest", "up", "down", or empty: rest; of a branch the saved one's, or up. */
   std::string direction;
