@@ -291,12 +291,11 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
   using enum Defect::Surface;
   Defect defect;
   const std::string surface = table.string("surface");
-  if (surface != "outer_race" && surface != "inner_race" && surface != "ball")
+  const auto named = std::ranges::find(Defect::surfaces, surface);
+  if (named == Defect::surfaces.begin() || named == Defect::surfaces.end())
     table.fail("surface",
                "\"" + surface + "\": must be \"outer_race\", \"inner_race\" or \"ball\"");
-  defect.surface = surface == "outer_race"   ? outer_race
-                   : surface == "inner_race" ? inner_race
-                                             : ball;
+  defect.surface = static_cast<Defect::Surface>(named - Defect::surfaces.begin());
   defect.depth = table.number("depth_m", Range::not_negative);
   defect.width = table.number("width_rad", Range::positive);
   defect.place = table.number_or("angle_rad", Range::any, 0);

@@ -279,8 +279,7 @@ namespace {
 
 const char* surface_of(const Defect& defect)
 {
-  constexpr const char* surfaces[] = {"none", "outer_race", "inner_race", "ball"};
-  return surfaces[static_cast<int>(defect.surface)];
+  return Defect::surfaces[static_cast<std::size_t>(defect.surface)];
 }
 
 /** The `#` lines of a joint; its number where there are several. */

@@ -57,6 +57,8 @@ struct Body {
     Angles [rad] are those of the surface that is damaged. */
 struct Defect {
   enum class Surface { none, outer_race, inner_race, ball };
+  /** As files and tables name them. */
+  static constexpr std::array surfaces{"none", "outer_race", "inner_race", "ball"};
   Surface surface = Surface::none;
   double depth = 0;  ///< [m]
   double width = 0;  ///< [rad]
