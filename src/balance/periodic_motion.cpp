@@ -1,6 +1,5 @@
 #include "balance/periodic_motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -61,12 +60,10 @@ Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& fro
   return y;
 }
 
-Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics)
+Eigen::VectorXd resize_harmonics(Eigen::VectorXd x, int dofs, int harmonics)
 {
-  Eigen::VectorXd resized = Eigen::VectorXd::Zero(dofs * (2 * harmonics + 1));
-  const auto common = std::min(x.size(), resized.size());
-  resized.head(common) = x.head(common);
-  return resized;
+  x.conservativeResizeLike(Eigen::VectorXd::Zero(dofs * (2 * harmonics + 1)));
+  return x;
 }
 
 }  // namespace rotor_stator

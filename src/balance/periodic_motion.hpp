@@ -101,6 +101,6 @@ Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& fro
                         const Harmonics& to);
 
 /** The coefficients x with m = `harmonics`: cut, or filled with zeros. */
-Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics);
+Eigen::VectorXd resize_harmonics(Eigen::VectorXd x, int dofs, int harmonics);
 
 }  // namespace rotor_stator
