@@ -235,7 +235,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
 FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table)
 {
-  const bool is_whole = turns_to_repeat({parameters.bearing}) == 1;
+  const bool is_whole = has_rotation_period(parameters.bearing);
   const bool is_longer = request.subharmonic > 1;
   const BasePeriod base = is_whole && is_longer ? BasePeriod{} : base_period(parameters);
   if (is_longer && !is_whole)

@@ -64,7 +64,7 @@ void require_options(const ResponseRequest& request)
 void take_any_cage(const ResponseRequest& request, ResponseTask& task)
 {
   const BasePeriod base = base_period(task.machine);
-  const bool is_whole = turns_to_repeat({task.machine.bearing}) == 1;
+  const bool is_whole = has_rotation_period(task.machine.bearing);
   const bool needs_turn =
       request.subharmonic > 1 || request.save || request.restart || request.isolated > 0;
   if (is_whole && (needs_turn || base.kind != BasePeriod::Kind::passing)) return;
