@@ -86,7 +86,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
   if (asked.overlay) {
     const NumberTable measured(*asked.overlay);
     constexpr double most = 1e30;  // what a figure can show
-    for (std::size_t k = 0; k < std::max<std::size_t>(1, measured.rows()); ++k)
+    for (std::size_t k = 0; k < measured.rows(); ++k)
       for (const char* name : {"f", "amplitude"})
         if (std::abs(measured.at(k, name)) > most)
           measured.fail(k, std::string(name) + ": is beyond 1e30, too large to draw");

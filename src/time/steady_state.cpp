@@ -38,7 +38,7 @@ public:
         most_(std::max(2 * window_,
                        std::lround(std::ceil(run.settings.longest / period_)))),
         flow_(flow(run.parameters, run.omega, run.settings.stepper)),
-        left_(std::min(window_, most_)), steady_{.omega = run.omega}
+        left_(window_), steady_{.omega = run.omega}
   {
   }
 
