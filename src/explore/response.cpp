@@ -67,7 +67,9 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
   const bool is_whole = has_rotation_period(task.machine.bearing);
   const bool needs_turn =
       request.subharmonic > 1 || request.save || request.restart || request.isolated > 0;
-  if (is_whole && (needs_turn || base.kind != BasePeriod::Kind::passing)) return;
+  const bool is_over_turn =
+      needs_turn || request.method == "shooting" || base.kind != BasePeriod::Kind::passing;
+  if (is_whole && is_over_turn) return;
   if (needs_turn)
     throw BadInput(
         format("--subharmonic, --save, --restart and --isolated need a whole number of "

@@ -277,6 +277,12 @@ class Shooting(Case):
             near = np.interp(at, series["f"], series[name])
             self.assertLess(np.max(np.abs(times[name][1:-1] / near - 1)), 5e-3)
 
+    def test_a_balanced_rotor_is_followed_turn_by_turn(self):
+        """Where nothing but the passing balls excites, one passage would be the base period elsewhere."""
+        own = self.file("own.toml", changed(unbalance_kg_m=0, radial_clearance_m=0))
+        table = self.table("response", own, "--from", 40, "--to", 41, "--method", "shooting")
+        self.assertEqual((table.value("base"), table["f"][-1]), ("turn", 41))
+
     def test_a_branch_turns_back_where_an_attractor_ends(self):
         """The kept study has two T-periodic attractors of set 1 at 34.25 Hz and one at 34.5 Hz."""
         table = self.table("response", self.machine, "--from", 33, "--to", 36, "--method", "shooting")
