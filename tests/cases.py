@@ -13,7 +13,7 @@ import numpy as np
 from scipy.io import mmread
 
 from tests.truth.independent import Model, displacements, errors
-from tests.support.explore import MACHINE, Case, changed
+from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed
 
 CASES = Path("tests/cases").resolve()
 
@@ -28,6 +28,25 @@ def model_of(path, frequency):
 
 def half_span(column):
     return np.ptp(column) / 2
+
+
+FREE = """title = "a free rotor in a 6205"
+[stator]
+{stator}
+[rotor]
+mass_kg = {mass}
+natural_frequency_Hz = 0
+damping_N_s_per_m = {damping}
+unbalance_kg_m = {unbalance}
+[bearing]
+balls = 9
+radial_clearance_m = 1.025e-5
+cage_speed_ratio = 0.398309426229508
+contact_exponent = {exponent}
+contact_stiffness_N_per_mn = {stiffness}
+[gravity]
+acceleration_m_per_s2 = 9.81
+"""
 
 
 class Cases(Case):
@@ -344,6 +363,45 @@ class Measures(Case):
             iso, size = self.measured(own, ["orbit", "--frequency", speed], "--columns",
                                       ["iso_x_r", "amp_1X_x_r"])
             self.assertGreater(iso, 0.999e3 * 2 * math.pi * speed * size / math.sqrt(2))
+
+
+class Uncertainties(Case):
+    """What a sceptical reader found wrong: a printed error holds every source."""
+
+    def test_extremes_of_chaos_scatter_as_printed(self):
+        """Amplitudes over 256 periods of eight neighbours, against their standard errors;
+        those of a mean of parts were half as large."""
+        tables = [self.table("orbit", SETS[2], "--frequency", repr(10 * (1 + k * 1e-7)), "--points", 4) for k in range(8)]
+        self.assertEqual({table.value("regime") for table in tables}, {"chaotic"})
+        seen, errors = (np.array([[table.value(name + end) for name in AMPLITUDES] for table in tables]) for end in ("", "_error"))
+        off = (seen - seen.mean(axis=0)) / errors
+        self.assertTrue(0.3 < np.sqrt((off**2).mean()) < 1.5, off)
+
+    def test_chaos_that_ends_while_it_is_observed(self):
+        """Set 2 at 23 Hz: chaos of some seconds, then a motion of two turns; most of the
+        neighbours are followed so far."""
+        kinds = [self.table("orbit", SETS[2], "--frequency", repr(23 * (1 + k * 1e-7)), "--points", 4).value("period", 0) for k in range(6)]
+        self.assertLessEqual(set(kinds), {0, 2})
+        self.assertGreaterEqual(kinds.count(2), 3)
+
+    def test_a_force_that_is_not_smooth(self):
+        """Rollers: one halving of the step was no estimate. Against steps far smaller."""
+        text = FREE.replace("{stator}", "rigid = true").replace("{mass}", "13.9").replace("{damping}", "1101.1").replace(
+            "{unbalance}", "1.54e-05").replace("{exponent}", repr(10 / 9)).replace("{stiffness}", "3e8\ncontact_damping_s_per_m = 0.69")
+        own = self.file("rollers.toml", text)
+        usual, exact = (self.table("orbit", own, "--frequency", 57.6, *how) for how in ([], ["--tolerance", 1e-6]))
+        one, other = (np.array([table[name] for name in NAMES]) for table in (usual, exact))
+        off = one - other
+        self.assertLessEqual(abs(off).max() / abs(other).max(), 1.1 * usual.value("error_largest"))
+        of_vibration = [np.linalg.norm(q - q.mean(axis=1, keepdims=True)) for q in (off, other)]
+        self.assertLessEqual(of_vibration[0] / of_vibration[1], 1.1 * usual.value("error_rms"))
+
+    def test_phases_of_one_motion_are_one_attractor(self):
+        """A motion of four passages, met in all its phases."""
+        text = FREE.replace("{stator}", "mass_kg = 26.7\nstiffness_N_per_m = 11262375\ndamping_N_s_per_m = 1040.5").replace(
+            "{mass}", "4.92").replace("{damping}", "460.1").replace("{unbalance}", "0").replace("{exponent}", "1.0").replace("{stiffness}", "5e7")
+        table = self.table("attractors", self.file("own.toml", text), "--from", 85.1, "--to", 86, "--count", 2, "--starts", 2)
+        self.assertEqual([list(table[name]) for name in ("motion", "period", "starts")], [[1, 1], [4, 2], [4, 4]])
 
 
 class Speeds(Case):

@@ -22,8 +22,7 @@ namespace {
 constexpr int section_points = 200;  // of a motion that does not close
 constexpr int most_runs = 200000;    // each keeps its state and statistics
 constexpr int motion_points = 256, motion_periods = 16;  // of --motions
-constexpr double same_closed = 1e-5,
-                 same_open = 0.1;  // of equal motions, over the scatter
+constexpr double same_closed = 1e-5, same_open = 0.1;    // motions, over the scatter
 
 /** The request, checked, with the machine that belongs to it. */
 struct Task {
@@ -50,10 +49,9 @@ Task task_of(const AttractorsRequest& request)
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
                           request.starts, most_starts, request.count));
-  const OperationBudget budget =
-      budget_of(request, request.count * (3.0 + request.starts), machine);
   return {request, machine, base_period(machine),
-          evenly_spaced(request.from, request.to, request.count), budget};
+          evenly_spaced(request.from, request.to, request.count),
+          budget_of(request, request.count * (3.0 + request.starts), machine)};
 }
 
 /** A random state of the size of the motion: both bodies together within twice the
@@ -220,7 +218,8 @@ struct Found {
 /** Whether two motions of one speed are on one attractor: both close after as many
     periods or neither does, two kinds do not contradict each other, and means and
     scatters agree over the largest scatter. At rest all do. */
-bool is_same(const Run& a, const Found& b)
+template <class One>
+bool is_same(const One& a, const Found& b)
 {
   const Kind kind = a.answer.kind(), other = b.answer.kind();
   if (kind == Kind::rest && other == Kind::rest) return true;
@@ -255,6 +254,10 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     found.measured = measures.of({whole.motion, step, found.speed, closes(whole)});
   }
   complete(found.answer, request, budget);
+  if (found.answer.method == "shooting") {
+    found.seen.mean = mean_of(found.answer.motion);
+    found.seen.rms = rms_of(found.answer.motion);
+  }
   found.touches = motion::contact_share(found.answer.machine, found.answer.motion) > 0;
 }
 
@@ -280,6 +283,27 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   return all;
 }
 
+/** Starts may end in several phases of one motion, apart by errors of integration until
+    shooting has closed them. */
+std::vector<Found> merged(std::vector<Found> all)
+{
+  std::vector<Found> kept;
+  const auto is_shot = [](const Found& one) { return one.answer.method == "shooting"; };
+  for (Found& one : all) {
+    const auto same = std::ranges::find_if(kept, [&](const Found& other) {
+      return is_shot(one) && is_shot(other) && is_same(one, other);
+    });
+    if (same == kept.end()) {
+      kept.push_back(std::move(one));
+      kept.back().number = static_cast<int>(kept.size());
+      continue;
+    }
+    for (std::size_t i = 0; i < one.from.size(); ++i) same->from[i] += one.from[i];
+    same->undecided += one.undecided;
+  }
+  return kept;
+}
+
 /** The attractors of all speeds, each paid from what is left of the budget. As with the
     starts, what goes beyond it in their order is lost; `missing` says what, unless it
     says something already. */
@@ -297,7 +321,7 @@ std::vector<Found> all_found(const Task& task, const Measures& measures,
           } catch (const NoSolution& error) {
             found.lost = error.what();
           }
-        return std::pair{std::move(all), budget.spent()};
+        return std::pair{merged(std::move(all)), budget.spent()};
       });
   std::vector<Found> all;
   for (const auto& [found_here, spent] : pieces) {
@@ -389,9 +413,9 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
   for (const Found& found : all) {
     const motion::Motion& motion = found.answer.motion;
     const std::vector<Vec2> forces = motion::bearing_forces(found.answer.machine, motion);
-    const int periods = found.is_closed() ? found.answer.period() : motion_periods;
-    const auto rows = std::min(
-        motion.size(), static_cast<std::size_t>(std::max(1, periods) * motion_points));
+    const int periods =
+        found.is_closed() ? std::max(1, found.answer.period()) : motion_periods;
+    const auto rows = std::min<std::size_t>(motion.size(), periods * motion_points);
     for (std::size_t k = 0; k < rows; ++k) {
       const Displacements q = displacements(motion.positions[k]);
       table.row({found.speed, found.number, motion.t_over_period(k), q[0], q[1], q[2],
@@ -408,10 +432,8 @@ void note(Table& table, const Task& task)
   table.value("method", method);
   if (task.machine.bodies->takes_explicit_steps()) {
     const Based last = over(task.base, task.machine, angular(task.speeds.back()));
-    table.value("step",
-                steps_of_rk4(method) * step_ratio(task.request.tolerance) *
-                    step_at(last.machine, last.omega),
-                4);
+    const double ratio = steps_of_rk4(method) * step_ratio(task.request.tolerance);
+    table.value("step", ratio * step_at(last.machine, last.omega), 4);
   }
   if (task.request.tolerance) table.value("tolerance", *task.request.tolerance);
   table.value("base", task.base.words());
@@ -439,7 +461,7 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
 {
   const auto is_lost = [](const Run& run) { return !run.lost.empty(); };
   const auto first = std::ranges::find_if(all, is_lost);
-  if (first == all.end()) return "";
+  if (first == all.end()) return {};
   return format("%s: partial, %td of %zu starts have no result, the first at %.9g Hz: %s",
                 task.machine.file.c_str(), std::ranges::count_if(all, is_lost),
                 all.size(), task.speeds[first->speed], first->lost.c_str());
@@ -467,8 +489,8 @@ Exploration explore_attractors(const AttractorsRequest& request)
   const bool touches = std::ranges::any_of(all, &Found::touches);
   if (touches || missing.empty()) put_contact(table, task.machine, touches);
   put_cost(table, task.budget);
-  std::string section;
-  if (request.section || request.plot) section = section_text(task, all);
+  const std::string section =
+      request.section || request.plot ? section_text(task, all) : "";
   std::vector<NamedContent> files;
   if (request.section) files.push_back({*request.section, section});
   if (request.motions) files.push_back({*request.motions, motion_text(task, all)});

@@ -262,10 +262,13 @@ try {
   }
   FoundMotion found{.motion = answer.motion, .machine = answer.machine};
   if (answer.kind() == Kind::chaotic) {
-    auto seen = attempt([&] { return observe(answer, budget); });
-    found.has_statistics = seen.has_value();
-    if (seen.has_value())
-      put_statistics(table, seen.get());
+    table.note(
+        format("chaotic over the %.3g s of the transient and 256 base periods: a "
+               "longer transient looks the same",
+               settled.seconds));
+    found.has_statistics = answer.seen.has_value();
+    if (answer.seen)
+      put_statistics(table, *answer.seen);
     else
       table.note("mean, rms and amplitude need more than the budget");
   }

@@ -67,8 +67,8 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
   const bool is_whole = has_rotation_period(task.machine.bearing);
   const bool needs_turn =
       request.subharmonic > 1 || request.save || request.restart || request.isolated > 0;
-  const bool is_over_turn =
-      needs_turn || request.method == "shooting" || base.kind != BasePeriod::Kind::passing;
+  const bool is_over_turn = needs_turn || request.method == "shooting" ||
+                            base.kind != BasePeriod::Kind::passing;
   if (is_whole && is_over_turn) return;
   if (needs_turn)
     throw BadInput(
@@ -99,9 +99,7 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
 void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion,
              double omega, bool is_closed, const Measures& measures)
 {
-  const auto samples = motion::displacement_samples(motion);
-  for (Eigen::Index i = 0; i < 4; ++i)
-    row.mean[static_cast<std::size_t>(i)] = samples.col(i).mean();
+  row.mean = mean_of(motion);
   const auto forces = motion::bearing_forces(parameters, motion);
   const auto half_range = [&](double Vec2::*axis) {
     const auto [low, high] = std::ranges::minmax_element(forces, {}, axis);

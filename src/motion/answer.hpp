@@ -12,9 +12,12 @@ its kind:
 - Every other motion is recorded. If neighbours converge, it is stable and recorded twice
   from `settled.before`, the second time with half the step or a fourth of the local
   error. The second record is `motion`; its difference from the first plus the rest of the
-  transient is the error. With a tolerance the step is halved at most six times. If the
-  budget is too small, there is no error.
+  transient is the error. With a tolerance the step is halved at most six times. A force
+  less smooth than Hertz's needs one halving more, and the larger of the last two
+  differences counts. If the budget is too small, there is no error.
 - If neighbours do not converge, the record depends on rounding: no error, `undecided`.
+  Chaos may be a transient: if the motion closes while it is observed, it is settled anew
+  from there.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
@@ -45,6 +48,15 @@ struct Request {
   bool is_measured = true;     ///< whether error and stability are wanted
 };
 
+/** What tables report of x_s, y_s, x_r, y_r [m]: of a periodic motion over its K base
+    periods, of every other one over 256, with standard errors. */
+struct Observation {
+  Displacements amplitude{};    ///< half of the largest less the smallest value
+  Displacements mean{}, rms{};  ///< rms about the mean
+  Displacements amplitude_error{}, mean_error{}, rms_error{};
+  std::optional<State> closed = {};  ///< at the end of another one that closes by then
+};
+
 struct Answer {
   BasePeriod base;
   Parameters machine = {};  ///< its angles counted per base period, `over`
@@ -56,6 +68,7 @@ struct Answer {
   double multiplier = 0, uncertainty = 0;  ///< largest modulus of a closed one; else 0
   std::string method = {};                 ///< shooting, or what recorded the motion
   std::string error_note = {};             ///< what the error is measured by
+  std::optional<Observation> seen = {};    ///< of a chaotic one that `answer` gives
 
   Kind kind() const { return settled.kind; }
   int period() const { return settled.period; }
@@ -86,13 +99,6 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
 Answer settled_answer(const Question& question);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-/** What tables report of x_s, y_s, x_r, y_r [m]: of a periodic motion over its K base
-    periods, of every other one over 256, with standard errors. */
-struct Observation {
-  Displacements amplitude{};    ///< half of the largest less the smallest value
-  Displacements mean{}, rms{};  ///< rms about the mean
-  Displacements amplitude_error{}, mean_error{}, rms_error{};
-};
 Observation observe(const Answer& answer, const OperationBudget& budget = {});
 
 /** What all questions settle on, and what is reported of it, side by side. */

@@ -288,6 +288,23 @@ Displacements half_peak_to_peak(const Motion& motion)
   return amplitude;
 }
 
+Displacements mean_of(const Motion& motion)
+{
+  Displacements mean;
+  Eigen::RowVector4d::Map(mean.data()) = displacement_samples(motion).colwise().mean();
+  return mean;
+}
+
+Displacements rms_of(const Motion& motion)
+{
+  const Eigen::MatrixXd q = displacement_samples(motion);
+  Displacements rms;
+  Eigen::RowVector4d::Map(rms.data()) =
+      (q.rowwise() - q.colwise().mean()).colwise().norm() /
+      std::sqrt(static_cast<double>(q.rows()));
+  return rms;
+}
+
 double largest_displacement(const Motion& motion)
 {
   return displacement_samples(motion).cwiseAbs().maxCoeff();

@@ -135,6 +135,10 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
 Displacements half_peak_to_peak(const Motion& motion);
 
+/** Their means, and rms about these [m]. */
+Displacements mean_of(const Motion& motion);
+Displacements rms_of(const Motion& motion);
+
 /** The largest displacement of either body [m]. */
 double largest_displacement(const Motion& motion);
 
