@@ -15,7 +15,7 @@ namespace rotor_stator::explore {
 /** Of orbit, contact and spectrum. */
 struct MotionRequest : Request {
   double frequency = 0;  ///< [Hz]
-  /** What the machine does from rest; or a method that `is_periodic`, or a time method. */
+  /** The motion from rest; or a method that `is_periodic`, or a time method. */
   std::string method = "auto";
   std::optional<double> tolerance;  ///< of displacement, relative
   std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)

@@ -97,8 +97,8 @@ struct Diameters {
 
 /** Eq. 3, c = ½(1 - R_b/(R_b + R)) with the radii R_b of a ball and R of the inner race
     (in the paper's Eq. 2 R is the ball's, D-07), for any contact angle and speed of the
-    outer ring. `source`: the catalogue's entry where there is a designation, else the same
-    table. */
+    outer ring. `source`: the catalogue's entry where there is a designation, else the
+    same table. */
 Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 {
   const std::size_t way = table.way({{"cage_speed_ratio"},
