@@ -334,8 +334,9 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
 Parameters read_machine(StrictToml root, const ModelRange& asked)
 {
   if (root.has_tables("segment"))
-    root.fail("segment", "is of a shaft: explore shaft makes its matrices, a folder that "
-                         "a machine names as rotor.matrices");
+    root.fail("segment",
+              "is of a shaft: explore shaft makes its matrices, a folder that "
+              "a machine names as rotor.matrices");
   const Parameters parameters =
       read_parameters(std::move(root), [&](StrictToml& table, Parameters& machine) {
         read_bodies(table, machine, asked);
