@@ -59,16 +59,18 @@ std::optional<State> closed(const Parameters& machine, double omega, const State
                             double local_error, const OperationBudget& budget)
 {
   /** Of the sizes: farther away it is another one; Newton may pass a hundred times as
-      far from it. */
-  constexpr double near = 1e-2;
-  State at = state;
-  const Shooting shooting = shoot(machine, omega, at,
-                                  {.tolerance = local_error,
-                                   .closed = std::max(1e-9, 10 * local_error),
-                                   .farthest = 100 * near,
-                                   .budget = budget});
-  if (!shooting.converged || !(apart(machine, at, state) < near)) return {};
-  return at;
+      far from it. Rounding, which grows within a period, may keep it from closing. */
+  constexpr double near = 1e-2, rounding = 1e-7;
+  for (const double wanted : {std::max(1e-9, 10 * local_error), rounding}) {
+    State at = state;
+    const ShootingSettings settings{.tolerance = local_error,
+                                    .closed = wanted,
+                                    .farthest = 100 * near,
+                                    .budget = budget};
+    const bool is_closed = shoot(machine, omega, at, settings).converged;
+    if (is_closed && apart(machine, at, state) < near) return at;
+  }
+  return {};
 }
 
 /** The stability of a closed motion, and λ from its largest multiplier. */
@@ -282,14 +284,12 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  constexpr int most_settlings = 3;
   Question question{.parameters = parameters,
                     .request = request,
                     .budget = budget,
-                    .start = {},
                     .transient_share = parameters.bodies->patience().transient_share};
   Answer found = settled_answer(question);
-  for (int k = 1; k < most_settlings && found.kind() == Kind::chaotic; ++k) {
+  for (int more = 2; more > 0 && found.kind() == Kind::chaotic; --more) {
     auto seen = attempt([&] { return observe(found, budget); });
     if (seen.has_value()) found.seen = seen.get();
     if (!found.seen || !found.seen->closed) break;
