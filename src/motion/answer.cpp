@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <span>
 
 #include "io/errors.hpp"
 #include "motion/judge.hpp"
@@ -289,10 +288,11 @@ Answer answer(const Parameters& parameters, const Request& request,
                     .budget = budget,
                     .transient_share = parameters.bodies->patience().transient_share};
   Answer found = settled_answer(question);
-  for (int more = 2; more > 0 && found.kind() == Kind::chaotic; --more) {
-    auto seen = attempt([&] { return observe(found, budget); });
-    if (seen.has_value()) found.seen = seen.get();
-    if (!found.seen || !found.seen->closed) break;
+  while (found.kind() == Kind::chaotic) {
+    auto seen = attempt([&] { return observe(found, budget.part(0.3)); });
+    if (!seen.has_value()) break;
+    found.seen = seen.get();
+    if (question.start || !found.seen->closed) break;
     question.start = found.seen->closed;
     found = settled_answer(question);
   }
