@@ -22,7 +22,8 @@ namespace {
 constexpr int section_points = 200;  // of a motion that does not close
 constexpr int most_runs = 200000;    // each keeps its state and statistics
 constexpr int motion_points = 256, motion_periods = 16;  // of --motions
-constexpr double same_closed = 1e-5, same_open = 0.1;    // motions, over the scatter
+constexpr double same_closed = 1e-5,
+                 same_open = 0.1;  // of equal motions, over the scatter
 
 /** The request, checked, with the machine that belongs to it. */
 struct Task {
@@ -195,9 +196,9 @@ std::vector<Run> all_runs(const Task& task)
 /** An attractor with the starts that ended on it. */
 struct Found {
   double speed;  ///< [Hz]
-  int number;    ///< at this speed
   motion::Answer answer;
   motion::Observation seen;
+  int number = 0;                      ///< at this speed, from 1
   std::array<int, 4> from = {};        ///< starts by `Origin`
   int undecided = 0;                   ///< of them
   std::vector<double> exponents = {};  ///< of the motions of these starts [1/s]
@@ -274,8 +275,7 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   for (const Run& run : runs) {
     auto one = std::ranges::find_if(all, [&](const Found& f) { return is_same(run, f); });
     if (one == all.end())
-      one = all.insert(one, {task.speeds[speed], static_cast<int>(all.size()) + 1,
-                             run.answer, run.seen});
+      one = all.insert(one, {task.speeds[speed], run.answer, run.seen});
     ++one->from[static_cast<std::size_t>(run.origin)];
     one->exponents.push_back(run.answer.settled.lyapunov.value);
     if (!is_decided(run)) ++one->undecided;
@@ -283,8 +283,8 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   return all;
 }
 
-/** Starts may end in several phases of one motion, apart by errors of integration until
-    shooting has closed them. */
+/** Those that are different, numbered: starts may end in several phases of one motion,
+    apart by errors of integration until shooting has closed them. */
 std::vector<Found> merged(std::vector<Found> all)
 {
   std::vector<Found> kept;
@@ -461,7 +461,7 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
 {
   const auto is_lost = [](const Run& run) { return !run.lost.empty(); };
   const auto first = std::ranges::find_if(all, is_lost);
-  if (first == all.end()) return {};
+  if (first == all.end()) return "";
   return format("%s: partial, %td of %zu starts have no result, the first at %.9g Hz: %s",
                 task.machine.file.c_str(), std::ranges::count_if(all, is_lost),
                 all.size(), task.speeds[first->speed], first->lost.c_str());

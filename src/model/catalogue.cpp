@@ -182,15 +182,15 @@ double read_clearance(StrictToml& table, StrictToml& source,
       {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
   const bool is_given =
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
-  const bool has_class = table.has(designation_key);
-  const std::size_t way = is_given || !has_class ? table.way(ways) : 2;
+  const bool has_designation = table.has(designation_key);
+  const std::size_t way = is_given || !has_designation ? table.way(ways) : 2;
   if (way < 2) {
     const double given = table.number(ways[way][0], Range::any),
                  radial = way == 0 ? given : given / 2;
     if (way == 1)
       derived.push_back(
           format("clearance: %.15g m on the diameter, delta is half of it", given));
-    if (!has_class) return radial;
+    if (!has_designation) return radial;
     if (!by_designation.empty())
       derived.push_back("clearance: as given; " + by_designation +
                         " of the designation is not used");
@@ -204,7 +204,7 @@ double read_clearance(StrictToml& table, StrictToml& source,
           2e6 * std::min(radial, 1e300), widest.c_str(), 1e6 * most);
     return radial;
   }
-  if (!has_class)
+  if (!has_designation)
     table.fail("internal_clearance",
                "needs designation, which gives the bore; without it give "
                "diametral_clearance_m");

@@ -430,12 +430,11 @@ private:
   /** Whether the last base periods are about to repeat themselves. */
   bool closes() const
   {
-    constexpr int most_period = 16;
     constexpr double nearly = 1e-3;  // over the vibration
     const auto last = std::span(periods_).last(most_period);
     double size = 0;
     for (std::size_t i = 0; i < 4; ++i) size = std::max(size, half_range(last, i));
-    return closing_period(section_, nearly * size, most_period) > 0;
+    return closing_period(section_, nearly * size) > 0;
   }
 
   bool is_closed_, may_close_;

@@ -29,6 +29,12 @@ double ratio(double difference, double size)
   return difference <= unmeasurable ? 0 : difference / size;
 }
 
+/** About the mean of each column. */
+Eigen::MatrixXd centred(const Eigen::MatrixXd& q)
+{
+  return q.rowwise() - q.colwise().mean();
+}
+
 /** Of the first period; zero above what its instants resolve. */
 Eigen::MatrixXd series_of(const Motion& motion, const Eigen::MatrixXd& samples,
                           int harmonics)
@@ -297,11 +303,10 @@ Displacements mean_of(const Motion& motion)
 
 Displacements rms_of(const Motion& motion)
 {
-  const Eigen::MatrixXd q = displacement_samples(motion);
+  const Eigen::MatrixXd off = centred(displacement_samples(motion));
   Displacements rms;
   Eigen::RowVector4d::Map(rms.data()) =
-      (q.rowwise() - q.colwise().mean()).colwise().norm() /
-      std::sqrt(static_cast<double>(q.rows()));
+      off.colwise().norm() / std::sqrt(static_cast<double>(off.rows()));
   return rms;
 }
 
@@ -326,9 +331,6 @@ double relative_difference(const Motion& motion, const Motion& reference)
 
 double rms_difference(const Motion& motion, const Motion& reference)
 {
-  const auto centred = [](const Eigen::MatrixXd& q) -> Eigen::MatrixXd {
-    return q.rowwise() - q.colwise().mean();
-  };
   /** Squares of legal displacements may overflow. */
   const auto norm = [](const Eigen::MatrixXd& q) {
     const double plain = q.norm();

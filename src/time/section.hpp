@@ -15,11 +15,14 @@ namespace rotor_stator {
     points apart; of any two points by default [m]. */
 double extent(std::span<const Displacements> section, std::size_t apart = 0);
 
+/** The largest K of a motion that is called periodic. */
+inline constexpr int most_period = 16;
+
 /** The fewest base periods K after which a section closes: of its last 3K + 1
     points, at least nine, those K apart are nearer than `closed` [m]. 0: none up to
-    `most_period`. */
+    `most`. */
 int closing_period(std::span<const Displacements> section, double closed,
-                   int most_period);
+                   int most = most_period);
 
 /** The mean of a series and its standard error: that of the means of a few long batches
     of neighbours, which know little of each other. */

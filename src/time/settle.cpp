@@ -80,7 +80,6 @@ namespace {
 
 constexpr double forgotten = -20.7;  ///< ln 1e-9
 constexpr double nearer = -16.1;     ///< ln 1e-7
-constexpr int most_period = 16;      ///< K
 
 /** So long a motion is watched before a growth rate is believed, at least [s]. */
 double least_seconds(const Parameters& machine, double omega)
@@ -299,7 +298,7 @@ bool Settling::closes(Settled& s) const
     const double rate = std::min(0.0, s.lyapunov.value);
     return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
   };
-  const int k = closing_period(all, closed * size * nearer_by(1), most_period);
+  const int k = closing_period(all, closed * size * nearer_by(1));
   if (k == 0) return false;
   const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);
