@@ -390,8 +390,8 @@ class Uncertainties(Case):
 
     def test_a_force_that_is_not_smooth(self):
         """Rollers: one halving of the step was no estimate. Against steps far smaller."""
-        text = FREE.replace("{stator}", "rigid = true").replace("{mass}", "13.9").replace("{damping}", "1101.1").replace(
-            "{unbalance}", "1.54e-05").replace("{exponent}", repr(10 / 9)).replace("{stiffness}", "3e8\ncontact_damping_s_per_m = 0.69")
+        text = FREE.format(stator="rigid = true", mass=13.9, damping=1101.1, unbalance=1.54e-5, exponent=10 / 9,
+                           stiffness="3e8\ncontact_damping_s_per_m = 0.69")
         own = self.file("rollers.toml", text)
         usual, exact = (self.table("orbit", own, "--frequency", 57.6, *how) for how in ([], ["--tolerance", 1e-6]))
         one, other = (np.array([table[name] for name in NAMES]) for table in (usual, exact))
@@ -402,8 +402,8 @@ class Uncertainties(Case):
 
     def test_phases_of_one_motion_are_one_attractor(self):
         """A motion of four passages, met in all its phases."""
-        text = FREE.replace("{stator}", "mass_kg = 26.7\nstiffness_N_per_m = 11262375\ndamping_N_s_per_m = 1040.5").replace(
-            "{mass}", "4.92").replace("{damping}", "460.1").replace("{unbalance}", "0").replace("{exponent}", "1.0").replace("{stiffness}", "5e7")
+        text = FREE.format(stator="mass_kg = 26.7\nstiffness_N_per_m = 11262375\ndamping_N_s_per_m = 1040.5", mass=4.92, damping=460.1,
+                           unbalance=0, exponent=1.0, stiffness="5e7")
         table = self.table("attractors", self.file("own.toml", text), "--from", 85.1, "--to", 86, "--count", 2, "--starts", 2)
         self.assertEqual([list(table[name]) for name in ("motion", "period", "starts")], [[1, 1], [4, 2], [4, 4]])
 

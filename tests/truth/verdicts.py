@@ -78,11 +78,12 @@ class Verdicts(Case):
 
     def test_no_verdict_on_random_machines_is_false(self):
         dice, decided = random.Random(20), []
-        for number in some(range(20), 2):
-            file = self.file(f"machine{number}.toml", written(entries(random_machine(dice))))
+        machines = some(enumerate([random_machine(dice) for _ in range(20)]), 2)
+        for number, machine in machines:
+            file = self.file(f"machine{number}.toml", written(entries(machine)))
             for frequency in (1.37 + 0.61 * number, 15.83 + 0.61 * number, 31.27 + 1.17 * number):
                 decided += self.judged(file, round(frequency, 2), *SIX)
-        self.assertGreaterEqual(len(decided), 1.5 * len(some(range(20), 2)))
+        self.assertGreaterEqual(len(decided), 1.5 * len(machines))
         # Six harmonics lie as near to a stable as to an unstable motion in one case in ten.
         self.assertGreaterEqual(sum(decided), 0.85 * len(decided))
 
