@@ -213,14 +213,14 @@ class Browser(unittest.TestCase):
         return self.driver.execute_script(script, *arguments)
 
     def test_every_page_fits_and_has_its_mathematics_and_figures(self):
-        """In a narrow window, the worst for both, figures in a wide one too: pages with figures, those of SHOWN, every third with
-        mathematics and every eighth, with FULL in the environment all."""
+        """In a narrow window, the worst for both, figures in a wide one too: pages with figures, those of SHOWN, every sixth with
+        mathematics and every sixteenth, with FULL in the environment all."""
         equations, figures = 0, {}
         for figure in sorted(Path("figures/generated").glob("*.svg")):
             figures.setdefault(page_of(figure.stem) + ".html", []).append(figure.name)
         pages = sorted(page.name for page in BOOK.glob("*.html"))
         with_mathematics = {page for page in pages if 'class="math' in (BOOK / page).read_text(encoding="utf-8")}
-        for page in pages if FULL else sorted({*pages[::8], *SHOWN, *figures, *some(sorted(with_mathematics), 3)}):
+        for page in pages if FULL else sorted({*pages[::16], *SHOWN, *figures, *some(sorted(with_mathematics), 6)}):
             with self.subTest(page):
                 self.show(NARROW)
                 self.open(page)
@@ -284,7 +284,7 @@ class Browser(unittest.TestCase):
                            check=False, capture_output=True)
         if not AXE.exists():
             self.skipTest("no npm with axe-core here")
-        for page in SHOWN:
+        for page in some(SHOWN, 2):
             self.open(page)
             self.js(AXE.read_text(encoding="utf-8"))
             for scheme in ("light", "dark"):

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.io import mmread
 
 from tests.truth.independent import Model, displacements, errors
-from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed
+from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed, some
 
 CASES = Path("tests/cases").resolve()
 
@@ -243,7 +243,7 @@ rotor_dofs = [1, 2]
     def test_a_soft_mounting_far_above_its_resonances(self):
         """Variational equations along the motion: -1.6e-4 a turn at 300 Hz and -1.6e-5 at
         3,000 Hz."""
-        for frequency, words in [(300, {"stable"}), (3000, {"stable", "undecided"})]:
+        for frequency, words in some([(300, {"stable"}), (3000, {"stable", "undecided"})], 2):
             with self.subTest(frequency=frequency):
                 table = self.asked("orbit", "soft_mounting", "--frequency", frequency, "--quiet")
                 self.assertIn(table.value("stability"), words)
@@ -252,10 +252,10 @@ rotor_dofs = [1, 2]
 
 def commands_at(f):
     """What measures the motion at a speed, and how columns are asked for."""
-    speeds = ["--from", f, "--to", f + 1, "--count", 2]
+    speeds = ["--from", f, "--to", f + 1, "--count", 1]
     return [(["orbit", "--frequency", f], "--columns"), (["response", *speeds], "--columns"),
             (["attractors", *speeds, "--starts", 0], "--columns"),
-            (["map", "--x", f"frequency={f}:{f + 1}:2"], "--quantity")]
+            (["map", "--x", f"frequency={f}:{f}:1"], "--quantity")]
 
 
 class Measures(Case):

@@ -70,15 +70,15 @@ class Verdicts(Case):
     def test_no_verdict_is_false(self):
         every = []
         for number, speeds in SPEEDS.items():
-            decided = [verdict for frequency in speeds for options in (SIX, ["--method", "aft", "--tolerance", "1e-3"])
+            decided = [verdict for frequency in some(speeds, 2) for options in (SIX, ["--method", "aft", "--tolerance", "1e-3"])
                        for verdict in self.judged(SETS[number], frequency, *options)]
-            self.assertGreaterEqual(len(decided), len(speeds))
+            self.assertGreaterEqual(len(decided), len(some(speeds, 2)))
             every += decided
         self.assertGreaterEqual(sum(every), 0.95 * len(every))
 
     def test_no_verdict_on_random_machines_is_false(self):
         dice, decided = random.Random(20), []
-        machines = some(enumerate([random_machine(dice) for _ in range(20)]), 2)
+        machines = some(enumerate([random_machine(dice) for _ in range(20)]), 4)
         for number, machine in machines:
             file = self.file(f"machine{number}.toml", written(entries(machine)))
             for frequency in (1.37 + 0.61 * number, 15.83 + 0.61 * number, 31.27 + 1.17 * number):

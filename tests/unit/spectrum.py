@@ -7,7 +7,7 @@ import tomllib
 
 import numpy as np
 
-from tests.support.explore import MACHINE, NAMES, Case, changed
+from tests.support.explore import FULL, MACHINE, NAMES, Case, changed
 
 VALUES = tomllib.loads(MACHINE)
 BALLS = VALUES["bearing"]["balls"]
@@ -75,14 +75,14 @@ class Spectrum(Case):
         """A light rotor, always on its balls; what is new beside the same machine without a spall."""
         cage = 0.41
         text = changed(cage_speed_ratio=cage, unbalance_kg_m=1e-4, radial_clearance_m=0)
-        whole = self.by_name(self.spectrum(text, 30, "--method", "rk8pd", "--longest", 8))
+        whole = self.by_name(self.spectrum(text, 30))
         size = max(whole["BPFO"])
         for surface, line, sidebands in [("outer_race", "2BPFO", []), ("inner_race", "BPFI", ["BPFI-1X", "BPFI+1X"]),
                                          ("ball", "2BSF", ["2BSF-FTF", "2BSF+FTF"])]:
-            for depth in (1e-6, 0):
+            for depth in (1e-6, 0) if FULL or surface == "ball" else (1e-6,):
                 with self.subTest(surface=surface, depth=depth):
                     spall = f"\n[bearing.defect]\nsurface = '{surface}'\ndepth_m = {depth}\nwidth_rad = 0.2\nangle_rad = -1.5\n"
-                    table = self.spectrum(text + spall, 30, "--method", "rk8pd", "--longest", 8)
+                    table = self.spectrum(text + spall, 30)
                     self.assertEqual(table.value("defect"), surface)
                     found = self.by_name(table)
                     new = [name for name in [line, *sidebands]
