@@ -43,8 +43,8 @@ OUTCOME = """\
 confirmed only if nothing in the model was chosen so that it holds.
 
 **Table 1.** We exchange two natural frequencies of the paper's Table 1. In the printed order the same rules give:
-{{claims.printed}}. Six harmonics agree with time integration to 10 % (rms) at {{right.C2_exchanged:.0%}} of the speeds with the exchanged order,
-at {{right.C2_printed:.0%}} with the printed one; the others are mostly speeds at which no motion repeats itself with every turn.
+{{claims.printed}}. Six harmonics meet a motion that repeats with every turn within 10 % (rms) at {{right.C2_exchanged:.0%}} of the speeds with the exchanged order,
+at {{right.C2_printed:.0%}} with the printed one; at most of the others no such motion attracts.
 
 **Masses.** The paper prints neither masses nor cage. Its text only bounds the masses; with other masses or another cage
 that it admits the verdicts on {{claims.changing}} change.
@@ -62,8 +62,8 @@ speeds (set 1) and {{periodic_2:.0%}} (set 2). At the others no solution with th
 six harmonics is {{high.rms:.4%}} of the motion about its mean, and the bearing's force is wrong by up to {{high.force:.1%}} of its
 largest value there (with the large clearance and ten harmonics {{accuracy.large_force:.0%}}). At {{low.f:.0f}} Hz these errors are {{low.rms:.0%}} and {{low.force:.0%}}.
 
-**Stability.** Of set 1 {{few.unstable:.0f}} of the solutions that were judged lie on unstable motions. By multipliers of 6
-harmonics {{few.false:.0f}} of them pass for stable, by those of 64 harmonics {{many.false:.0f}} of {{many.unstable:.0f}}. The
+**Stability.** Set 1: {{few.unstable:.0f}} of the judged solutions with 6 harmonics lie next to unstable motions. Their own Floquet
+multipliers call {{few.false:.0f}} of these stable; with 64 harmonics it is {{many.false:.0f}} of {{many.unstable:.0f}}. The
 paper says nothing of stability.
 
 **Misprints and gaps.** In {{deviations.count:.0f}} places the paper cannot be followed as printed;
@@ -166,7 +166,7 @@ def speeds(values):
 
 def response():
     """Peak, loss of contact and speeds without T-periodic motion, of each data set."""
-    yield "| data set | largest amplitude of x_r | contact lost at times [Hz] | not T-periodic [Hz] |"
+    yield "| data set | largest amplitude of x_r | speeds with loss of contact [Hz] | not T-periodic [Hz] |"
     yield "|---|---|---|---|"
     table = Table(GENERATED / "fig03_response.tsv")
     for number in (1, 2):

@@ -144,7 +144,7 @@ class LargeMap(NamedTuple):
 
 
 MAPS = {
-    "clearance_speed": LargeMap("Clearance against speed", of_speeds, """The motion from rest, by Runge-Kutta integration, repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
+    "clearance_speed": LargeMap("Clearance against speed", of_speeds, """The motion from rest, by time integration, repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
 it is aperiodic at {aperiodic:.0%}, quasi-periodic at {quasi:.1%}, and not decided at {open:.1%}.
 
 Aperiodic motion begins at a clearance of {first_um:.3g} µm, the first step of the map, and does not need a loss of contact: at {unlost:.0%} of the aperiodic points

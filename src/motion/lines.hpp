@@ -9,12 +9,12 @@ $$2\pi f = k_{rotation}\,\omega + k_{cage}\,\omega_{cage} + k_{spin}\,\omega_{ba
 with ω_ball a ball's rotation about itself, seen from the cage. X = ω, BPFO = n ω_cage,
 BPFI = n (ω - ω_cage), FTF = ω_cage, BSF = ω_ball.
 
-The name of a line is the shortest sum of multiples of X, BPFO and BPFI: that with the
-smallest sum of the absolute values of the multiples, those of BPFO and BPFI counted
-twice, then the fewest terms, then the smallest multiple of BPFI. A multiple of X may be
-h/K, K ≤ 8, where n c is whole. A line without such a name may be a multiple of FTF or of
-BSF. Where a ball is damaged, 2sBSF + jFTF + hX is a name too, if its 2s + |j|/2 + |h| is
-smaller. */
+The name of a line is the shortest sum of multiples of X, BPFO and BPFI. Its length is the
+sum of the absolute multiples, those of BPFO and BPFI doubled; of equally long sums that
+with the fewest terms, then with the smallest multiple of BPFI, is taken. A multiple of X
+may be h/K, K ≤ 8, where n c is whole. A line without such a name may be a multiple of FTF
+or of BSF. Where a ball is damaged, 2sBSF + jFTF + hX is a name too, if its
+2s + |j|/2 + |h| is smaller. */
 #pragma once
 
 #include <string>

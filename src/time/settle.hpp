@@ -9,7 +9,7 @@ section decide the kind of the motion, the first of these that holds:
 - `rest`: half of the range of every displacement, and speed times base period, are below
   1e-12 of clearance plus static deflection.
 - `periodic`: one frequency drives, and the section, one point in each base period,
-  repeats itself to 1e-6 of the vibration after K ≤ 16 of them and after no fewer.
+  repeats itself to 1e-6 of the vibration after K ≤ 16 of them, the smallest such K.
 - `chaotic`: λ - d > 0, and the growth does not fade: in the last quarter it is at least
   e⁵, and more than the root of that in the quarter before.
 - `quasi-periodic`: two frequencies drive, λ + d < 0 and the transient is over (the motion
@@ -17,7 +17,7 @@ section decide the kind of the motion, the first of these that holds:
 - `undecided`: everything else, with the reason.
 
 λ comes with its standard error s, from ten batches of the later half of all that was
-integrated; d is 3s and what the step may change in λ. The last two kinds are decided
+integrated; d is 3s plus the error of λ by the step. The last two kinds are decided
 after 4 to 50 s at the earliest.
 
 Integration starts at or before t = 0. It ends before t = 0 only if neighbours have
