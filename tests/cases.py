@@ -355,6 +355,37 @@ class Measures(Case):
                 np.testing.assert_allclose(self.measured(own, command, how, names),
                                            [table[name][0] for name in names], rtol=1e-3)
 
+    def test_accelerations_while_a_ball_passes_a_spall(self):
+        """A spall that a ball passes in six of the 256 instants printed: Eq. 7 has the
+        accelerations at every row, the first and the last included."""
+        text = machine("light_rollers").read_text(encoding="utf-8")
+        for old, new in [("ratio = 0.45", "ratio = 0.41"), ("contact_exponent = 1.1111111111111112", ""),
+                         ("contact_stiffness_N_per_mn = 4.8e8", "contact_stiffness_N_per_m1p5 = 1.3e10")]:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        own = self.file("spall.toml", text + "[bearing.defect]\nsurface = 'inner_race'\ndepth_m = 7e-6\nwidth_rad = 0.086\n")
+        table = self.table("orbit", own, "--frequency", 68, "--columns", "t,v_y_r,F_y,a_y_r")
+        omega = 2 * np.pi * 68
+        right = ((2e-5 * omega**2 * np.sin(omega * table["t"]) - table["F_y"]
+                  - 600 * table["v_y_r"]) / 3 - 9.81)
+        self.assertLess(abs(table["a_y_r"] - right).max(), 2e-3 * abs(right).max())
+
+    def test_largest_forces_do_not_depend_on_the_instants(self):
+        """Of rollers that vibrate 80 times in a base period: as 8,192 instants have them."""
+        name = "light_rollers"
+        one = ["--from", 40, "--to", 40, "--columns", "f,amp_F_x,amp_F_y,ball_load"]
+        row = self.table("response", machine(name), *one)
+        at = ["--frequency", 40, "--points", 8192]
+        orbit = self.table("orbit", machine(name), *at)
+        load = self.table("contact", machine(name), *at)["Q"].max()
+        mapped = self.table("map", machine(name), "--x", "frequency=40:40:1",
+                            "--quantity", "ball_load,force")
+        found = [row["amp_F_x"][0], row["amp_F_y"][0], row["ball_load"][0],
+                 mapped["ball_load"][0], mapped["force"][0]]
+        np.testing.assert_allclose(found, [
+            half_span(orbit["F_x"]), half_span(orbit["F_y"]), load, load,
+            np.hypot(orbit["F_x"], orbit["F_y"]).max()], rtol=1e-3)
+
     def test_iso_at_its_lower_end(self):
         """A line at 10 Hz belongs to the band, though the window of an open record spreads
         it over both sides; below 600 turns a minute the band begins at 2 Hz."""

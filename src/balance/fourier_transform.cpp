@@ -225,6 +225,15 @@ Vertex vertex(double before, double top, double after)
   return {-slope / curvature, top - 0.5 * slope * slope / curvature};
 }
 
+double largest_of(const Eigen::VectorXd& x, bool is_closed)
+{
+  Eigen::Index k = 0;
+  const Eigen::Index n = x.size();
+  const double top = x.maxCoeff(&k);
+  if (!is_closed && (k == 0 || k + 1 == n)) return top;
+  return vertex(x[(k + n - 1) % n], top, x[(k + 1) % n]).height;
+}
+
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
 {
   const int n = fast_transform_size(std::max(256, 8 * static_cast<int>(series.cols())));
@@ -233,12 +242,7 @@ Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
   Eigen::VectorXd amplitude(series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
     const auto x = samples.col(row);
-    const auto [least, most] = std::minmax_element(x.begin(), x.end());
-    const auto height = [&](auto at) {
-      const auto k = at - x.begin();
-      return vertex(x[(k + n - 1) % n], x[k], x[(k + 1) % n]).height;
-    };
-    amplitude[row] = 0.5 * (height(most) - height(least));
+    amplitude[row] = 0.5 * (largest_of(x, true) + largest_of(-x, true));
   }
   return amplitude;
 }

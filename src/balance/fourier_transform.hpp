@@ -83,6 +83,10 @@ struct Vertex {
 };
 Vertex vertex(double before, double top, double after);
 
+/** The largest value, where three samples lie on a parabola; `is_closed`: the first
+    follows the last. */
+double largest_of(const Eigen::VectorXd& x, bool is_closed);
+
 /** Half peak-to-peak of each row of a series over the period, the extremes refined by a
    parabola through three samples. */
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series);

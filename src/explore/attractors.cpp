@@ -44,7 +44,7 @@ struct Task {
 
 Task task_of(const AttractorsRequest& request)
 {
-  require_range(request.from, request.to);
+  require_range(request.from, request.to, request.count == 1);
   const Parameters machine = machine_of(request, request.from, request.to);
   const int most_starts = most_runs / request.count - 3;
   if (request.starts > most_starts)

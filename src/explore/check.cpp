@@ -73,6 +73,16 @@ bool never_touches(const CheckRequest& request, const Parameters& machine)
   return true;
 }
 
+/** Where two masses that stay in contact resonate. */
+std::string words_of_joint(const Parameters& machine)
+{
+  const Body &s = machine.stator, &r = machine.rotor;
+  const double omega = std::sqrt((s.stiffness() + r.stiffness()) / (s.mass + r.mass));
+  const bool is_pair = machine.bodies->takes_explicit_steps() && !s.rigid && !r.rigid &&
+                       machine.grounds.empty();
+  return is_pair ? format("; of both masses in contact it is %.4g Hz", omega / turn) : "";
+}
+
 }  // namespace
 
 Exploration explore_check(const CheckRequest& request)
@@ -125,6 +135,9 @@ Exploration explore_check(const CheckRequest& request)
   const auto is_loaded = [](const Rest& rest) { return rest.loaded > 0; };
   if (machine.gravity > 0 && std::ranges::none_of(rests, is_loaded))
     warn("no ball is loaded at rest: do the loads lift the rotor?");
+  else if (std::ranges::none_of(rests, is_loaded))
+    warn("no ball is loaded at rest: frequencies are those without contact" +
+         words_of_joint(machine));
   const bool is_large = !machine.bodies->takes_explicit_steps();
   if (!is_large) {
     const double omega = angular(request.to),
@@ -136,7 +149,9 @@ Exploration explore_check(const CheckRequest& request)
         at_end);
     add("balance_grade", printable_size(1e3 * e * omega), "mm/s",
         "e omega " + at_end + ", the G of ISO 21940-11");
-    if (const double gap = machine.bearing.clearance; gap > 0 && e > 10 * gap)
+    const bool is_thrown = machine.unbalance * omega * omega > rests.front().force;
+    if (const double gap = machine.bearing.clearance;
+        gap > 0 && e > 10 * gap && is_thrown)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
   }
@@ -164,7 +179,7 @@ Exploration explore_check(const CheckRequest& request)
   }
   if (!machine.grounds.empty())
     table.note("f_s, f_r, contact_loss: of machines without elements to the ground");
-  if (is_alone)
+  if (is_alone && machine.bearing.clearance >= 0)
     if (const auto lost = equal_force_speeds(machine, angular(request.to)); !lost.empty())
       add("contact_loss", lost.front() / turn, "Hz",
           "speed at which the unbalance lifts the static load, at u = 0");

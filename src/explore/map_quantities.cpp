@@ -109,20 +109,23 @@ public:
   {
     const MapRequest& asked = task_.request;
     const auto tolerance = is_balance() ? std::nullopt : asked.tolerance;
-    return {machine_,
-            {.omega = angular(frequency_),
-             .method = is_balance() ? "auto" : asked.method,
-             .tolerance = tolerance,
-             .periods = Measures::open_periods,
-             .step = asked.step,
-             .step_ratio = step_ratio(tolerance),
-             .longest = asked.longest,
-             .is_measured = asked.tolerance || asks_for({"stability", "multiplier",
-                                                         "uncertainty", "lyapunov"})},
-            budget_,
-            {},
-            machine_.bodies->patience().transient_share,
-            asks_for({"amplitude", "mean"})};
+    const bool has_loads = asks_for({"ball_load", "force"});
+    return {
+        machine_,
+        {.omega = angular(frequency_),
+         .method = is_balance() ? "auto" : asked.method,
+         .tolerance = tolerance,
+         .points = has_loads ? motion::instants_of(based_.machine, based_.omega) : 256,
+         .periods = Measures::open_periods,
+         .step = asked.step,
+         .step_ratio = step_ratio(tolerance),
+         .longest = asked.longest,
+         .is_measured = asked.tolerance ||
+                        asks_for({"stability", "multiplier", "uncertainty", "lyapunov"})},
+        budget_,
+        {},
+        machine_.bodies->patience().transient_share,
+        asks_for({"amplitude", "mean"})};
   }
 
   /** What its question came to. */
@@ -156,10 +159,11 @@ public:
   double ball_load() { return motion::largest_ball_load(moving(), motion()); }
   double force()
   {
-    double largest = 0;
-    for (const Vec2 force : motion::bearing_forces(moving(), motion()))
-      largest = std::max(largest, std::hypot(force.x, force.y));
-    return largest;
+    const auto forces = motion::bearing_forces(moving(), motion());
+    Eigen::VectorXd sizes(std::ssize(forces));
+    std::ranges::transform(forces, sizes.begin(),
+                           [](Vec2 f) { return std::hypot(f.x, f.y); });
+    return largest_of(sizes, false);
   }
 
   /** A measure of that name. */
@@ -466,6 +470,7 @@ std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity
     std::string keys;
     for (const double value : points[k]) keys += Cell(value).text() + "\t";
     rows.push_back(keys + row_of(made[k].get(), chosen, statuses[k]));
+    made[k].reset();  // with its records
   }
   return rows;
 }

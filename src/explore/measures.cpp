@@ -112,16 +112,6 @@ double rms_between(const Eigen::VectorXd& x, const Record& record, double low,
   return std::sqrt(square / window.array().square().mean());
 }
 
-/** The largest value, where three instants lie on a parabola. */
-double largest_of(const Eigen::VectorXd& x, bool is_closed)
-{
-  Eigen::Index k = 0;
-  const Eigen::Index n = x.size();
-  const double top = x.maxCoeff(&k);
-  if (!is_closed && (k == 0 || k + 1 == n)) return top;
-  return vertex(x[(k + n - 1) % n], top, x[(k + 1) % n]).height;
-}
-
 double value_of(const std::string& what, const Eigen::VectorXd& x, const Record& record)
 {
   const double mean = x.mean();
@@ -207,12 +197,12 @@ std::vector<std::vector<double>> Measures::at_instants(const Record& record) con
 
 Recording recording_for_rates(const Parameters& machine, double omega, int points)
 {
-  constexpr double each = 16;   // of a vibration of the contact
+  constexpr double each = 16;   // of a vibration
   constexpr double most = 3e7;  // numbers that are kept
   constexpr int least_periods = 16;
   const auto numbers =
       8 + static_cast<double>(machine.bodies->state_scales(machine).size());
-  const double needed = each * contact_frequency(machine) / omega;
+  const double needed = each * motion::vibrations_of(machine, omega);
   while (points < needed && 2 * points * numbers * least_periods <= most) points *= 2;
   return {points, std::clamp(static_cast<int>(most / numbers / points), least_periods,
                              Measures::open_periods)};

@@ -8,7 +8,7 @@ mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso
 velocity in mm/s from 10 to 1000 Hz, below 600 turns a minute from 2 Hz, ISO 20816).
 Without WHAT the value at each instant.
 
-All are taken from one record at equal instants, sixteen in a vibration of the contact: K
+All are taken from one record at equal instants, sixteen in its quickest vibration: K
 base periods of a motion that closes, 256 of another one (fewer where these would not fit
 into memory), under Hann's window where lines are asked for. Rates are differences of
 order 8.

@@ -323,8 +323,9 @@ Check add_options(CLI::App& command, ResponseRequest& request)
                  "relative error; chooses the step of integration. With --method aft of "
                  "each solution, at evenly spaced speeds instead of along the branch; "
                  "with two frequencies, of the five that choose the harmonics");
-  CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
-                                  "speeds, evenly spaced (101; 21 of large bodies)");
+  CLI::Option* count =
+      add_number(command, "--count", request.count, 1, 100000,
+                 "speeds, evenly spaced (101; 21 of large bodies; 1 of one speed)");
   add_speeds(command, request);
   add_rpm(command, request);
   command.add_option("--direction", request.direction,

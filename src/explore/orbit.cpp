@@ -20,9 +20,9 @@
 
 namespace rotor_stator::explore {
 
-void require_range(double from, double to)
+void require_range(double from, double to, bool takes_one)
 {
-  if (from >= to)
+  if (from > to || (from == to && !takes_one))
     throw BadInput(format("--from %g Hz: must be below --to %g Hz", from, to));
 }
 

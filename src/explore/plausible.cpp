@@ -36,14 +36,18 @@ std::string doubt_of_speed(const Parameters& machine, double highest)
 {
   constexpr double fastest = 1.3e6;  // n d_m of deep groove ball bearings [mm/min]
   constexpr double fastest_hertz = 1000;
-  for (const Bearing& bearing : bearings_of(machine))
-    if (const double n = speed_value(bearing, highest); n > fastest)
+  bool is_known = true;
+  for (const Bearing& bearing : bearings_of(machine)) {
+    const double n = speed_value(bearing, highest);
+    is_known = is_known && n > 0;
+    if (n > fastest)
       return format(
-          "%g Hz are %.4g turns a minute, n d_m = %.3g mm/min, above "
+          "%g Hz are %.6g turns a minute, n d_m = %.3g mm/min, above "
           "what ball bearings bear: speeds are in Hz, or as 1500rpm",
           highest, printable_size(60 * highest), n);
-  if (highest > fastest_hertz)
-    return format("%g Hz are %.4g turns a minute: speeds are in Hz, or as 1500rpm",
+  }
+  if (highest > fastest_hertz && !is_known)
+    return format("%g Hz are %.6g turns a minute: speeds are in Hz, or as 1500rpm",
                   highest, printable_size(60 * highest));
   return "";
 }
@@ -142,11 +146,21 @@ void add_sag(Doubts& all, const Parameters& machine)
                  printable_size(sag)));
 }
 
+/** Whether nothing takes energy from a free rotor. */
+bool is_undamped(const Parameters& machine)
+{
+  return machine.stator.rigid && machine.rotor.damper == 0 &&
+         std::ranges::none_of(joints_of(machine), &Bearing::is_damped);
+}
+
 /** About the damping of a free rotor, which vibrates on the bearing. */
 void add_damper(Doubts& all, const Parameters& machine)
 {
   const Body& rotor = machine.rotor;
   if (rotor.rigid || rotor.natural_frequency > 0) return;
+  all.add(
+      is_undamped(machine),
+      "nothing damps the rotor: its damping_N_s_per_m may decide whether it is chaotic");
   const double critical =
       2 * std::sqrt(rotor.mass * scales(machine).stiffness * machine.bearing.balls);
   all.add(rotor.damper > 2 * critical,

@@ -102,8 +102,9 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   row.mean = mean_of(motion);
   const auto forces = motion::bearing_forces(parameters, motion);
   const auto half_range = [&](double Vec2::*axis) {
-    const auto [low, high] = std::ranges::minmax_element(forces, {}, axis);
-    return 0.5 * ((*high).*axis - (*low).*axis);
+    Eigen::VectorXd along(std::ssize(forces));
+    std::ranges::transform(forces, along.begin(), axis);
+    return 0.5 * (largest_of(along, is_closed) + largest_of(-along, is_closed));
   };
   row.force = {half_range(&Vec2::x), half_range(&Vec2::y)};
   row.contact_share = motion::contact_share(parameters, motion);

@@ -27,7 +27,8 @@ struct Sweep {
         table(title, columns.fields),
         has_further(table.choose(asked.columns, columns.usual, asked.plot.has_value())),
         direction(towards), is_chain(towards != "rest"),
-        speeds(evenly_spaced(asked.from, asked.to, asked.count.value_or(count))),
+        speeds(evenly_spaced(asked.from, asked.to,
+                             asked.from < asked.to ? asked.count.value_or(count) : 1)),
         evaluations_of_one(budget_of_each({}, seconds_of_one, of).left())
   {
     if (direction == "down") std::ranges::reverse(speeds);
@@ -206,11 +207,14 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
                   .period = answer.period_number()};
   if (sweep.has_further) {
     motion::Answer closed = answer;
-    if (asked.is_measured || measures.empty()) complete(closed, asked, budget);
+    motion::Request finer = asked;
+    finer.points = motion::instants_of(answer.machine, answer.omega);
+    if (asked.is_measured || measures.empty()) complete(closed, finer, budget);
     row.lyapunov = closed.settled.lyapunov.value;
     answer = measures.empty() ? std::move(closed) : whole_motion(answer, asked, budget);
     observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
     if (row.contact_share > 0) sweep.touches = true;
+    answer.motion = {};
   } else if (!sweep.touches && touches_somewhere(answer)) {
     sweep.touches = true;
   }
@@ -223,7 +227,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
 
 Exploration settled_response(const ResponseRequest& request)
 {
-  require_range(request.from, request.to);
+  require_range(request.from, request.to, request.count.value_or(1) == 1);
   const std::string direction = request.direction.empty() ? "rest" : request.direction;
   if (direction != "rest" && direction != "up" && direction != "down")
     throw BadInput("--direction " + direction + ": must be rest, up or down");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
 
 namespace rotor_stator::motion {
 
@@ -41,10 +42,12 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
 double largest_ball_load(const Parameters& parameters, const Motion& motion)
 {
   const auto periods = std::ssize(motion.positions) / motion.points_per_period;
-  double most = 0;
-  for (const auto& forces : contact_evolution(parameters, motion, periods).ball_force)
-    most = std::max(most, std::ranges::max(forces));
-  return most;
+  const auto loads = contact_evolution(parameters, motion, periods).ball_force;
+  const auto top =
+      std::ranges::max_element(loads, {}, [](auto& at) { return std::ranges::max(at); });
+  const auto ball = std::ranges::max_element(*top) - top->begin();
+  if (top == loads.begin() || top + 1 == loads.end()) return (*top)[ball];
+  return vertex((*(top - 1))[ball], (*top)[ball], (*(top + 1))[ball]).height;
 }
 
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)

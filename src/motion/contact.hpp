@@ -27,7 +27,8 @@ struct ContactEvolution {
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
                                    long periods = 2, std::size_t bearing = 0);
 
-/** The largest force on a ball along a motion [N]. */
+/** The largest force on a ball along a motion, where three instants of that ball lie on a
+    parabola [N]. */
 double largest_ball_load(const Parameters& parameters, const Motion& motion);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */

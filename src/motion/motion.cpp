@@ -67,11 +67,27 @@ Motion motion_of_samples(const Eigen::MatrixXd& samples, int points, long first_
 
 }  // namespace
 
+double vibrations_of(const Parameters& parameters, double omega)
+{
+  double most = contact_frequency(parameters) / omega;
+  for (const Bearing& joint : joints_of(parameters)) {
+    using enum Defect::Surface;
+    const Defect& spall = joint.defect;
+    if (spall.surface == none) continue;
+    const double rotor = rotor_speed(parameters, omega) / omega,
+                 passing = spall.surface == ball         ? spall.spin
+                           : spall.surface == inner_race ? joint.cage_speed_ratio - rotor
+                                                         : joint.cage_speed_ratio;
+    most = std::max(most, 8 * std::numbers::pi * std::abs(passing) / spall.width);
+  }
+  return most;
+}
+
 int instants_of(const Parameters& parameters, double omega)
 {
   constexpr int least = 256, most = 16;
   constexpr double each = 12;
-  const double vibrations = contact_frequency(parameters) / (omega * parameters.turns);
+  const double vibrations = vibrations_of(parameters, omega) / parameters.turns;
   const double times = std::clamp(std::ceil(each * vibrations / least), 1.0, 1.0 * most);
   return parameters.turns * least * static_cast<int>(times);
 }

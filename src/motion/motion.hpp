@@ -52,8 +52,13 @@ inline Motion recorded(Flow& stepper, int points_per_period, State& state,
   return motion;
 }
 
-/** Instants in a base period that resolve the motion: 256 to 4096 in a turn, twelve in a
-    vibration of the contact, so that no peak is missed by more than 4 %. */
+/** How often what is quickest vibrates in a base period: the contact, or the force while
+    a ball passes a spall, taken for four vibrations. */
+double vibrations_of(const Parameters& parameters, double omega);
+
+/** Instants in a base period that resolve the motion: 256 to 4096 in a turn, twelve in
+    such a vibration, so that no peak is missed by more than 4 %, and by a thousandth where
+    a parabola is laid through it. */
 int instants_of(const Parameters& parameters, double omega);
 
 /** x_s, y_s, x_r, y_r [m] at the instants of a motion, a row each. */

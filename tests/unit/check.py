@@ -1,6 +1,7 @@
 """explore check: rest, frequencies, loss of contact and warnings against closed forms.
 """
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -72,6 +73,27 @@ class Check(Case):
                 self.assertAlmostEqual(values[f"f_{order}_{axis}"] / frequency, 1, delta=1e-4)
         self.assertNotIn("passage_f_2_x", self.checked(text, "--to", values["f_2_x"] / (0.4 * BALLS) - 1e-6, "--from", 1e-3)[0])
 
+    def test_what_is_worth_a_word(self):
+        """No ball is loaded where nothing presses; preload is never lost; a rotor that nothing damps; an unbalance within the
+        weight; 90,000 turns a minute of a bearing that is small enough."""
+        def words(text, *options):
+            return "\n".join(line for line in self.checked(text, *options)[1].header.splitlines() if "warning:" in line)
+        self.assertIn("both masses in contact it is 49.91 Hz", words(Path("data/vertical.toml").read_text(encoding="utf-8")))
+        small = """[bearing]
+balls = 7
+ball_diameter_mm = 3.175
+pitch_diameter_mm = 14
+contact_stiffness_N_per_m1p5 = 7e9
+radial_clearance_um = -1.5
+"""
+        values, table = self.checked(HELD + small, "--from", 10, "--to", "1500")
+        self.assertEqual((values.get("contact_loss"), table.value("warnings")), (None, 0))
+        self.assertIn("90000 turns a minute", words(HELD + NAMED, "--from", 10, "--to", 1500))
+        self.assertIn("nothing damps the rotor", words(HELD.replace("s_per_m = 10", "s_per_m = 0") + NAMED))
+        heavy = HELD.replace("unbalance_kg_m = 1e-4", "balance_grade = 16\nbalance_speed_rpm = 300\nload_N = [0, -100]")
+        self.assertEqual(words(heavy + NAMED, "--from", 1, "--to", 5), "")
+        self.assertIn("times the clearance", words(heavy + NAMED))
+
     def test_warnings(self):
         """Each where it holds, one on data set 1: its centre of mass lies 1.25 mm away, 62.5 times the clearance."""
         far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
@@ -114,7 +136,7 @@ class Check(Case):
                             (NAMED + "radial_clearance_um = -1000", "more than a tenth of the ball"),
                             (MANY.replace(f"= {BALLS}", "= 9").replace(f"= {HERTZ}", "= 2.7e5"), "a contact stiffness of 2.7e+05 N/m^1.5")]:
             self.assertIn(word, self.checked(HELD + table)[1].header)
-        self.assertIn("1500 Hz are 9e+04 turns a minute", self.run_explore("orbit", self.file("set1.toml", MACHINE), "--frequency", 1500, "--points", 2).stderr)
+        self.assertIn("1500 Hz are 90000 turns a minute", self.run_explore("orbit", self.file("set1.toml", MACHINE), "--frequency", 1500, "--points", 2).stderr)
         radial = HELD + NAMED.replace("6205", "6205 C3") + "radial_clearance_m = 2.05e-5"
         self.assertIn("41 um on the diameter, where C3 has at most 28: is it radial?", self.checked(radial)[1].header)
         plain = HELD + NAMED + "radial_clearance_um = 32"

@@ -98,7 +98,7 @@ class Values(Case):
                 ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
                 ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")], "orbit", self.machine)
         self.refused_each([
-                ("--from 10 --to 10", "--from 10 Hz: must be below --to 10 Hz"), ("--from 20 --to 10", "--from"),
+                ("--from 10 --to 10 --count 2", "--from 10 Hz: must be below --to 10 Hz"), ("--from 20 --to 10", "--from"),
                 ("--from 0 --to 10", "--from"), ("--from 1 --to inf", "--to"),
                 ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
                 ("--from 1 --to 2 --direction left", "must be rest, up or down"),
