@@ -18,6 +18,9 @@ AMPLITUDES = [f"amp_{one}" for one in ("x_s", "y_s", "x_r", "y_r")]
 # What explore computes without --columns; of what else it has, measures have panels.
 USUAL = {"f", "t", *AMPLITUDES, "period", "error", "arc", "newton", "multiplier", "multiplier_change", "verdict", "bifurcation", "branch"}
 MOST_MEASURES, MOST_PANELS = 6, 24
+# Of a sweep: marks of the motions that do not repeat themselves after one base period, by the column `period`.
+KINDS = [("o", "repeats after several\nperiods", lambda period: period > 1), ("x", "chaotic", lambda period: period == 0),
+         ("D", "quasi-periodic", lambda period: period == -1), ("+", "undecided", lambda period: period == -2)]
 LINES = {"stable": ("-", 1.8), "unstable": (":", 1.8), "undecided": ("-", 0.7)}
 
 
@@ -26,11 +29,6 @@ def branches(table):
     if "branch" not in table.columns:
         return [table]
     return [table.where("branch", number) for number in np.unique(table["branch"])]
-
-
-def never_after_one(table):
-    """Rows of a sweep whose motion does not repeat itself after one base period."""
-    return table["period"] != 1 if "period" in table.columns else np.zeros(len(table), bool)
 
 
 def measures(table):
@@ -51,7 +49,13 @@ def asked(table):
 
 
 def draw_measure(axes, table, name, colour):
-    """One column, in µm where it is a length."""
+    """One column, in µm where it is a length; kinds of motion in words."""
+    if name == "period":
+        axes.plot(table["f"], table[name], ".", ms=4, color=colour)
+        known = np.unique(table[name])
+        axes.set_yticks(known, [next((label for _, label, are in KINDS[1:] if are(value)), f"K = {value:g}") for value in known])
+        axes.set_ylim(known[0] - 0.5, known[-1] + 0.5)
+        return
     unit = table.unit(name)
     for branch in branches(table):
         draw_branch(axes, branch, name, colour, 1e6 if unit == "m" else 1)
@@ -62,9 +66,11 @@ def draw_branch(axes, branch, column, colour, factor=1e6):
     """Pieces of one verdict; each ends where the next begins. Of a sweep a mark at each speed."""
     f, amplitude = branch["f"], factor * branch[column]
     if "period" in branch.columns:
-        other = never_after_one(branch)
-        axes.plot(f[~other], amplitude[~other], ".", ms=4, color=colour)
-        axes.plot(f[other], amplitude[other], "o", ms=4, mfc="white", color=colour)
+        once = branch["period"] == 1
+        axes.plot(f[once], amplitude[once], ".", ms=4, color=colour)
+        for marker, _, are in KINDS:
+            there = are(branch["period"])
+            axes.plot(f[there], amplitude[there], marker, ms=4, mfc="white", color=colour)
     verdict = branch["verdict"] if "verdict" in branch.columns else np.full(len(branch), "stable")
     start = 0
     for end in range(1, len(branch) + 1):
@@ -92,8 +98,9 @@ def legend(axes, table):
     for kind, (marker, label) in MARKS.items():
         if kind in known and (has_verdicts or np.any(np.diff(np.sign(np.diff(f))))):
             handles += axes.plot([], [], marker, mfc="white", color="#404040", label=label)
-    if never_after_one(table).any():
-        handles += axes.plot([], [], "o", ms=4, mfc="white", color="#404040", label="repeats after several\nperiods or never")
+    for marker, label, are in KINDS if "period" in table.columns else []:
+        if are(table["period"]).any():
+            handles += axes.plot([], [], marker, ms=4, mfc="white", color="#404040", label=label)
     if handles:
         axes.legend(handles=handles, loc="best", fontsize=10)
 

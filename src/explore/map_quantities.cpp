@@ -161,8 +161,8 @@ public:
   {
     const auto forces = motion::bearing_forces(moving(), motion());
     Eigen::VectorXd sizes(std::ssize(forces));
-    std::ranges::transform(forces, sizes.begin(),
-                           [](Vec2 f) { return std::hypot(f.x, f.y); });
+    std::transform(forces.begin(), forces.end(), sizes.begin(),
+                   [](Vec2 f) { return std::hypot(f.x, f.y); });
     return largest_of(sizes, false);
   }
 

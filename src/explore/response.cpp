@@ -103,7 +103,8 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   const auto forces = motion::bearing_forces(parameters, motion);
   const auto half_range = [&](double Vec2::*axis) {
     Eigen::VectorXd along(std::ssize(forces));
-    std::ranges::transform(forces, along.begin(), axis);
+    std::transform(forces.begin(), forces.end(), along.begin(),
+                   [axis](Vec2 f) { return f.*axis; });
     return 0.5 * (largest_of(along, is_closed) + largest_of(-along, is_closed));
   };
   row.force = {half_range(&Vec2::x), half_range(&Vec2::y)};
