@@ -40,16 +40,14 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references)
 {
   std::vector<References> ranges(scene.range_ends.size(), {{scene.parameters, {}}, {}});
-  for (std::size_t k = 0; k < references.frequencies.size(); ++k) {
-    if (!references.motions[k]) continue;
-    const double frequency = references.frequencies[k];
-    const auto end =
-        std::lower_bound(scene.range_ends.begin(), scene.range_ends.end(), frequency);
+  for (const TrueMotion& truth : references.truths) {
+    if (!truth.periodic) continue;
+    const auto end = std::ranges::lower_bound(scene.range_ends, truth.frequency);
     References& range = ranges.at(end - scene.range_ends.begin());
-    range.frequencies.push_back(frequency);
-    range.motions.push_back(references.motions[k]);
+    range.frequencies.push_back(truth.frequency);
+    range.truths.push_back(truth);
   }
-  std::erase_if(ranges, [](const References& range) { return range.motions.empty(); });
+  std::erase_if(ranges, [](const References& range) { return range.truths.empty(); });
   return ranges;
 }
 

@@ -510,10 +510,10 @@ private:
 MotionError error_at(const TimedMethod& method, const References& sweep,
                      std::size_t speed)
 {
-  const auto& truth = sweep.motions[speed];
-  if (!truth) return {};
-  return error_of(sweep.parameters, sweep.frequencies[speed],
-                  method.motion(speed, truth->points_per_period), *truth);
+  const TrueMotion& truth = sweep.truths[speed];
+  if (!truth.periodic) return {};
+  return error_of(sweep.parameters, method.motion(speed, truth.motion.points_per_period),
+                  truth);
 }
 
 }  // namespace
