@@ -164,10 +164,8 @@ void split_time(WorkPoint& point, const References& references)
     force += method->counts().force_seconds / point.repetitions;
   });
   point.force_share = std::min(1.0, force / profiled.median);
-  if (point.transforms == 0) return;
-  const auto samples = static_cast<int>(point.transformed / point.transforms);
-  const double transforms =
-      static_cast<double>(point.transforms) * seconds_of_transform(samples);
+  const double transforms = static_cast<double>(point.transforms) *
+                            seconds_of_transform(point.schedule.at(0).sample_count());
   point.transform_share = std::min(1 - point.force_share, transforms / point.median);
 }
 

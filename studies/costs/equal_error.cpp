@@ -102,10 +102,13 @@ static std::vector<std::size_t> least_path(const std::vector<Measurement>& tried
   return path;
 }
 
-std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
-                                          const References& range,
-                                          const std::vector<Measurement>& tried,
-                                          double target)
+/** The settings that stay below the target at their speeds and take the least CPU
+    together. A speed that misses the target among its new neighbours takes another
+    one. */
+static std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
+                                                 const References& range,
+                                                 const std::vector<Measurement>& tried,
+                                                 double target)
 {
   constexpr int attempts = 12;
   const std::size_t speeds = range.frequencies.size();

@@ -40,14 +40,6 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
                                       const References& range,
                                       const Candidates& candidates);
 
-/** The settings that stay below the target at their speeds and take the least CPU
-    together. A speed that misses the target among its new neighbours takes another
-    one. */
-std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
-                                          const References& range,
-                                          const std::vector<Measurement>& tried,
-                                          double target);
-
 /** One method in one range at one target: its cheapest settings that reach the target, or
     the setting with the least error where none does. */
 struct EqualErrorRow : Measurement {

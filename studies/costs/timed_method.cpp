@@ -1,6 +1,5 @@
 #include "costs/timed_method.hpp"
 
-#include <gsl/gsl_fit.h>
 #include <time.h>
 #include <algorithm>
 #include <cmath>
@@ -19,11 +18,6 @@
 #include "time/side_by_side.hpp"
 
 namespace rotor_stator::costs {
-
-bool Setting::has_fixed_step() const
-{
-  return rotor_stator::has_fixed_step(stepper()) || method == "central";
-}
 
 std::string Setting::stepper() const
 {
@@ -65,55 +59,49 @@ std::string Schedule::text() const
 
 namespace {
 
-/** Every setting of `group` with each of `values` in one of its fields. */
-template <class Value>
-SettingGroup each(const SettingGroup& group, Value Setting::*field,
-                  const std::vector<Value>& values)
-{
-  SettingGroup all;
-  for (const Setting& setting : group)
-    for (const Value& value : values) {
-      all.push_back(setting);
-      all.back().*field = value;
-    }
-  return all;
-}
-
 /** A group for each number of harmonics and each start: which is cheaper depends on the
     speeds. */
-Candidates balances(StrictToml table, const std::string& method)
+std::vector<SettingGroup> balances(StrictToml table)
 {
-  const SettingGroup ms = each(SettingGroup{{.method = method}}, &Setting::harmonics,
-                               table.integers("harmonics", 1, 4096));
+  const auto transients = table.numbers("transients_s", Range::not_negative);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
   const auto tolerances = table.numbers("newton_tolerances", Range::positive);
-  Candidates all{method, {}};
-  for (const Setting& setting :
-       each(ms, &Setting::transient, table.numbers("transients_s", Range::not_negative)))
-    all.groups.push_back(
-        each(each({setting}, &Setting::samples_per_harmonic, per_harmonic),
-             &Setting::tolerance, tolerances));
-  table.refuse_unknown_keys();
-  return all;
+  std::vector<SettingGroup> groups;
+  for (int harmonics : table.integers("harmonics", 1, 4096))
+    for (double transient : transients) {
+      SettingGroup& group = groups.emplace_back();
+      for (int samples : per_harmonic)
+        for (double tolerance : tolerances)
+          group.push_back({.method = "aft",
+                           .harmonics = harmonics,
+                           .samples_per_harmonic = samples,
+                           .tolerance = tolerance,
+                           .transient = transient});
+    }
+  return groups;
 }
 
 /** A group for each step or local error. */
-Candidates integrations(StrictToml table, const std::string& method)
+std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
 {
-  const bool fixed_step = Setting{.method = method}.has_fixed_step();
-  const SettingGroup accuracies = each(
-      SettingGroup{{.method = method}}, fixed_step ? &Setting::step : &Setting::tolerance,
-      table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive));
+  const Setting plain{.method = method};
+  const bool fixed_step = has_fixed_step(plain.stepper()) || method == "central";
   const auto transients = table.numbers("transients_s", Range::positive);
-  const auto residuals = Setting{.method = method}.is_shooting()
-                             ? table.numbers("closures", Range::positive)
-                             : std::vector<double>{0};
-  Candidates all{method, {}};
-  for (const Setting& setting : accuracies)
-    all.groups.push_back(each(each({setting}, &Setting::periodicity_residual, residuals),
-                              &Setting::transient, transients));
-  table.refuse_unknown_keys();
-  return all;
+  const auto residuals = plain.is_shooting() ? table.numbers("closures", Range::positive)
+                                             : std::vector<double>{0};
+  std::vector<SettingGroup> groups;
+  for (double accuracy :
+       table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive)) {
+    SettingGroup& group = groups.emplace_back();
+    for (double residual : residuals)
+      for (double transient : transients) {
+        Setting& one = group.emplace_back(plain);
+        (fixed_step ? one.step : one.tolerance) = accuracy;
+        one.periodicity_residual = residual;
+        one.transient = transient;
+      }
+  }
+  return groups;
 }
 
 }  // namespace
@@ -126,18 +114,16 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
                              "shooting-rk8"});
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {
-    if (std::find(known.begin(), known.end(), method) == known.end()) {
-      std::string list;
-      for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-      toml.fail("methods", "must be some of " + list);
-    }
+    if (std::ranges::find(known, method) == known.end())
+      toml.fail("methods", "must be some of " + joined(known, ", "));
+    StrictToml table = toml.table(method);
     all.push_back(
-        (method == "aft" ? balances : integrations)(toml.table(method), method));
+        {method, method == "aft" ? balances(table) : integrations(table, method)});
   }
   return all;
 }
 
-double thread_cpu_seconds()
+static double thread_cpu_seconds()
 {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -235,7 +221,6 @@ public:
           4 * (evaluations + one->solver.factorisations() + one->solver.iterations());
       counts.force_instants += evaluations * samples;
       counts.transforms += transforms;
-      counts.transformed += transforms * samples;
     }
     counts.force_seconds = *force_seconds_;
     return counts;
@@ -569,13 +554,11 @@ MotionError error_up_to(double bound, const References& sweep, const Schedule& s
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
 {
-  std::vector<double> log_x, log_y;
-  for (double value : x) log_x.push_back(std::log(value));
-  for (double value : y) log_y.push_back(std::log(value));
-  double level, slope, var_level, covariance, var_slope, squares;
-  gsl_fit_linear(log_x.data(), 1, log_y.data(), 1, x.size(), &level, &slope, &var_level,
-                 &covariance, &var_slope, &squares);
-  return slope;
+  const auto logarithms = [](const std::vector<double>& values) -> Eigen::ArrayXd {
+    return Eigen::ArrayXd::Map(values.data(), std::ssize(values)).log();
+  };
+  const Eigen::ArrayXd log_x = logarithms(x), off = log_x - log_x.mean();
+  return (off * logarithms(y)).sum() / off.square().sum();
 }
 
 }  // namespace rotor_stator::costs

@@ -44,7 +44,6 @@ struct Setting {
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
   bool is_ensemble() const { return method.ends_with("-lanes"); }
-  bool has_fixed_step() const;
 
   /** The time method: rk4 of rk4-lanes and shooting-rk4. */
   std::string stepper() const;
@@ -88,14 +87,12 @@ struct CpuTime {
   double median, least, most;
 };
 
-double thread_cpu_seconds();
 CpuTime time_of(int repetitions, const std::function<void()>& work);
 
 /** Operations of the last run. */
 struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
   long transforms = 0;       ///< Fourier transforms of one series
-  long transformed = 0;      ///< samples of all of them
   double force_seconds = 0;  ///< in the bearing's force, of a profiled aft run [s]
 };
 

@@ -68,7 +68,6 @@ TEST_CASE("Harmonic balance: N of the setting, three transforms or more per eval
   const long evaluations = counts.force_instants / setting.sample_count();
   CHECK(evaluations <= 12);
   CHECK(counts.transforms >= 3 * evaluations);
-  CHECK(counts.transformed == counts.transforms * setting.sample_count());
 }
 
 namespace {
