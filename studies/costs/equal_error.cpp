@@ -160,6 +160,23 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   return row;
 }
 
+Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
+                     const MotionError& target)
+{
+  if (!std::isfinite(target.displacement))
+    throw NoSolution(
+        format("no harmonic-balance solution at %g Hz", target.worst_frequency));
+  for (const Setting& setting : watched("RK4 settings", settings)) {
+    const MotionError error = error_up_to(target.displacement, references, setting);
+    if (error.displacement <= target.displacement && error.force <= target.force)
+      return setting;
+  }
+  throw NoSolution(
+      format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g of "
+             "force",
+             target.displacement, target.force));
+}
+
 namespace {
 
 using Row = EqualErrorRow;
