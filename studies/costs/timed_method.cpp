@@ -222,26 +222,21 @@ public:
       counts.force_instants += evaluations * samples;
       counts.transforms += transforms;
     }
-    counts.force_seconds = *force_seconds_;
+    counts.force_seconds = force_seconds_;
     return counts;
   }
 
 private:
   struct Solved {
     Balance balance;
-    BalanceSolver solver;  ///< keeps its factors from speed to speed
-
-    Solved(Problem problem, int harmonics)
-        : balance(std::move(problem), harmonics), solver(balance)
-    {
-    }
+    BalanceSolver solver{balance};  ///< keeps its factors from speed to speed
   };
 
   void begin() override
   {
     bodies_.assign(task_.frequencies.size(), {});
     balances_.clear();
-    *force_seconds_ = 0;
+    force_seconds_ = 0;
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
     ArcLengthSettings settings = arc_length_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
@@ -274,13 +269,13 @@ private:
     if (one) return *one;
     Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
     if (task_.profiled)
-      problem.force = [inner = problem.force, seconds = force_seconds_](
+      problem.force = [inner = problem.force, &seconds = force_seconds_](
                           const auto& q, auto&&... results) {
         const double start = thread_cpu_seconds();
         inner(q, results...);
-        *seconds += thread_cpu_seconds() - start;
+        seconds += thread_cpu_seconds() - start;
       };
-    one = std::make_unique<Solved>(std::move(problem), setting_.harmonics);
+    one.reset(new Solved{Balance(std::move(problem), setting_.harmonics)});
     return *one;
   }
 
@@ -292,9 +287,7 @@ private:
     const NewtonSettings newton{
         .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
     const auto from = [&](Eigen::VectorXd x) {
-      const Eigen::Index known = std::min(x.size(), one.balance.unknowns());
-      found.x = Eigen::VectorXd::Zero(one.balance.unknowns());
-      found.x.head(known) = x.head(known);
+      found.x = resize_harmonics(std::move(x), 2, setting_.harmonics);
       return rotor_stator::solve(one.balance, one.solver, found, newton);
     };
     if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
@@ -338,7 +331,7 @@ private:
   State state_;  ///< of the coarse integration, at phase 0
   LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
-  std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
+  double force_seconds_ = 0;
 };
 
 /** Time integration and shooting end in a state at each speed; one period from it, by the
