@@ -1,12 +1,10 @@
 #include "deviations/printed_equations.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "time/eigenvalues.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -149,22 +147,6 @@ StaticContact static_contact(const Parameters& parameters)
     if (std::abs(step) <= 1e-14 * std::abs(u)) return {u, force.y, slope.yy};
   }
   throw NoSolution(format("%s: no static contact found", parameters.file.c_str()));
-}
-
-std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness)
-{
-  const Body &s = parameters.stator, &r = parameters.rotor;
-  const double k = joint_stiffness;
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-  matrix.topRightCorner<2, 2>().setIdentity();
-  matrix.bottomLeftCorner<2, 2>() << -(s.stiffness() + k) / s.mass, k / s.mass,
-      k / r.mass, -(r.stiffness() + k) / r.mass;
-  matrix(2, 2) = -s.damping() / s.mass;
-  matrix(3, 3) = -r.damping() / r.mass;
-  const Eigen::VectorXd real = eigenvalues(matrix).real();
-  std::vector<double> rates(real.begin(), real.end());
-  std::sort(rates.rbegin(), rates.rend());
-  return rates;
 }
 
 }  // namespace rotor_stator::deviations

@@ -73,8 +73,4 @@ struct StaticContact {
 };
 StaticContact static_contact(const Parameters& parameters);
 
-/** Rates [1/s] of the four free modes of both bodies joined in one direction by a linear
-    stiffness [N/m], largest real part first; a positive one grows. */
-std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness);
-
 }  // namespace rotor_stator::deviations
