@@ -147,7 +147,7 @@ TEST_CASE("The plain Jacobian is the slope of the plain residual")
   const Parameters p = set_1();
   PlainBalance plain(p, hertz(12), 3, 32);
   const Eigen::VectorXd x = require_periodic(p, 12, 3, 32).bodies.reshaped();
-  const Eigen::MatrixXd jacobian = plain.jacobian(x);
+  const Eigen::MatrixXd jacobian = plain.at(x).jacobian;
   const double h = 1e-10;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), k);
