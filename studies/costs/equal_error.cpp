@@ -61,7 +61,7 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
   for (const SettingGroup& group : watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
       if (used > scene.search) return tried;
-      tried.push_back(tried_once(range, setting));
+      tried.push_back(measure(range, setting, 1));
       const double cpu = tried.back().median;
       used += cpu;
       if (tried.back().*scene.error <= scene.targets.back()) least = std::min(least, cpu);

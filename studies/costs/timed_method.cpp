@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
@@ -505,32 +504,21 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
   return std::make_unique<Integration>(task, schedule);
 }
 
-/** What a method has found and counted in its last run. */
-static Measurement judged(const TimedMethod& method, const References& sweep,
-                          const Schedule& schedule, const CpuTime& time, int repetitions)
-{
-  Measurement result{time, method.counts(), {}, schedule, repetitions};
-  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
-    result.errors.push_back(error_at(method, sweep, speed));
-    result.include(result.errors.back());
-  }
-  return result;
-}
-
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions)
 {
   const auto method = timed_method(sweep, schedule);
-  const CpuTime time = time_of(repetitions, [&] { method->run(); });
-  return judged(*method, sweep, schedule, time, repetitions);
-}
-
-Measurement tried_once(const References& sweep, const Schedule& schedule)
-{
-  const auto method = timed_method(sweep, schedule);
-  const std::vector<double> seconds = method->seconds_by_speed();
-  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  Measurement result = judged(*method, sweep, schedule, {all, all, all}, 1);
-  result.seconds = seconds;
+  std::vector<double> seconds;
+  const CpuTime time = time_of(repetitions, [&] {
+    if (repetitions == 1)
+      seconds = method->seconds_by_speed();
+    else
+      method->run();
+  });
+  Measurement result{time, method->counts(), {}, schedule, repetitions, seconds};
+  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
+    result.errors.push_back(error_at(*method, sweep, speed));
+    result.include(result.errors.back());
+  }
   return result;
 }
 

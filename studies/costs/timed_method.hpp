@@ -137,14 +137,11 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
 struct Measurement : CpuTime, Counts, MotionError {
   Schedule schedule;
   int repetitions;
-  std::vector<double> seconds = {};      ///< of a single run, at each speed
+  std::vector<double> seconds = {};      ///< at each speed, where it is run once
   std::vector<MotionError> errors = {};  ///< at each speed
 };
 
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions);
-
-/** The same of one run, with the CPU of each speed. */
-Measurement tried_once(const References& sweep, const Schedule& schedule);
 
 /** The largest error over the speeds, as far as it is not above `bound`: the run ends at
     the first speed that is. */
