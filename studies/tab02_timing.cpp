@@ -11,12 +11,13 @@ for either method (D-18). A ratio of times means little without the errors; ours
 therefore taken at equal error.
 
 Both methods solve all speeds of the scene in order, T-periodic or not, and each speed
-starts from the result of the last one, the first of Runge-Kutta from the static load. Harmonic balance runs with each number of harmonics of the paper. Its
-error is the largest error of displacement over the speeds where the motion has the period
-of rotation, against motions that are found by time integration and closed by shooting.
-Runge-Kutta then gets the cheapest step and transient of the scene file that reach the
-same error. Both are repeated on one thread; the table gives the median of the CPU time
-with its extremes, and the ratio of the medians.
+starts from the result of the last one, the first of Runge-Kutta from the static load.
+Harmonic balance runs with each number of harmonics of the paper. Its error is the largest
+error of displacement over the speeds where the motion has the period of rotation, against
+motions that are found by time integration and closed by shooting. Runge-Kutta then gets
+the cheapest step and transient of the scene file that reach the same error. Both are
+repeated on one thread; the table gives the median of the CPU time with its extremes, and
+the ratio of the medians.
 
 Two things keep the ratio small. Errors of a few per cent, which the worst speed near the
 transition decides, are cheap for a time integrator too. And Runge-Kutta is written with
