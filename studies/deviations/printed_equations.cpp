@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/errors.hpp"
-
 namespace rotor_stator::deviations {
 
 static constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
@@ -126,19 +124,9 @@ Eigen::VectorXd PlainBalance::printed_step(const Eigen::VectorXd& x) const
 
 StaticContact static_contact(const Parameters& parameters)
 {
-  const double compliance =
-      1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
-  const double sag = free_displacement(parameters, 0, 0).y;
-  const BallBearing bearing(parameters.bearing);
-  double u =
-      quasi_static_contact(parameters.bearing, rigid_joint_force(parameters, 0, 0)).y;
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const auto [force, slope] = bearing.reaction({1, 0}, {0, u});
-    const double step = (sag - u - compliance * force.y) / (1 + compliance * slope.yy);
-    u += step;
-    if (std::abs(step) <= 1e-14 * std::abs(u)) return {u, force.y, slope.yy};
-  }
-  throw NoSolution(format("%s: no static contact found", parameters.file.c_str()));
+  const Vec2 u = parameters.bodies->at_rest(parameters, {1, 0}).position.relative();
+  const auto [force, slope] = BallBearing(parameters.bearing).reaction({1, 0}, u);
+  return {u.y, force.y, slope.yy};
 }
 
 }  // namespace rotor_stator::deviations
