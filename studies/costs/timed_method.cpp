@@ -141,26 +141,22 @@ CpuTime time_of(int repetitions, const std::function<void()>& work)
   return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
 }
 
-void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
+void TimedMethod::run()
 {
-  counts_ = {};
   begin();
-  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
-    solve(k);
-    if (goes_on && !goes_on(k)) return;
-  }
+  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) solve(k);
 }
 
 std::vector<double> TimedMethod::seconds_by_speed()
 {
   std::vector<double> seconds;
-  double before = thread_cpu_seconds();
-  run([&](std::size_t) {
-    const double now = thread_cpu_seconds();
-    seconds.push_back(now - before);
-    before = now;
-    return true;
-  });
+  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
+    const CpuTime time = time_of(1, [&] {
+      if (k == 0) begin();
+      solve(k);
+    });
+    seconds.push_back(time.median);
+  }
   return seconds;
 }
 
@@ -233,6 +229,7 @@ private:
 
   void begin() override
   {
+    counts_ = {};
     bodies_.assign(task_.frequencies.size(), {});
     balances_.clear();
     force_seconds_ = 0;
@@ -354,6 +351,7 @@ public:
 protected:
   void begin() override
   {
+    counts_ = {};
     reached_.assign(task_.frequencies.size(), {});
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
   }
@@ -443,11 +441,10 @@ class Ensemble : public Integration {
 public:
   using Integration::Integration;
 
-  void run(const std::function<bool(std::size_t speed)>& goes_on) override
+  void begin() override
   {
-    counts_ = {};
+    Integration::begin();
     evaluations_.clear();
-    begin();
     const std::size_t speeds = task_.frequencies.size();
     std::vector<std::unique_ptr<Flow>> flows;
     std::vector<State> states(speeds);
@@ -466,13 +463,14 @@ public:
       reached_[k] = {passages[k].count, states[k]};
     }
     for (const Failure& failure : failures) reached_[failure.passage].reset();
-    for (std::size_t k = 0; goes_on && k < speeds && goes_on(k); ++k) continue;
   }
+
+  void solve(std::size_t /*speed*/) override {}
 
   /** The whole, shared as the evaluations are. */
   std::vector<double> seconds_by_speed() override
   {
-    const double whole = time_of(1, [&] { run({}); }).median;
+    const double whole = time_of(1, [&] { begin(); }).median;
     const auto all = static_cast<double>(std::max(1L, counts_.force_instants));
     std::vector<double> seconds;
     for (long one : evaluations_)
@@ -526,10 +524,12 @@ MotionError error_up_to(double bound, const References& sweep, const Schedule& s
 {
   const auto method = timed_method(sweep, schedule);
   MotionError error;
-  method->run([&](std::size_t speed) {
-    error.include(error_at(*method, sweep, speed));
-    return error.displacement <= bound;
-  });
+  method->begin();
+  for (std::size_t k = 0; k < sweep.frequencies.size() && error.displacement <= bound;
+       ++k) {
+    method->solve(k);
+    error.include(error_at(*method, sweep, k));
+  }
   return error;
 }
 

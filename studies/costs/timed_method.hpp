@@ -104,8 +104,10 @@ public:
   }
   virtual ~TimedMethod() = default;
 
-  /** All the work anew, speed by speed, until `goes_on`, asked after each, says no. */
-  virtual void run(const std::function<bool(std::size_t speed)>& goes_on = {});
+  /** All the work anew: it begins, and solves one speed after the other. */
+  void run();
+  virtual void begin() = 0;
+  virtual void solve(std::size_t speed) = 0;
 
   /** Runs once and returns the CPU [s] of each speed. */
   virtual std::vector<double> seconds_by_speed();
@@ -116,9 +118,6 @@ public:
   virtual Counts counts() const { return counts_; }
 
 protected:
-  virtual void begin() = 0;
-  virtual void solve(std::size_t speed) = 0;
-
   /** Of the time method at a speed. */
   std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
