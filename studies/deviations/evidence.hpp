@@ -24,6 +24,12 @@ struct Evidence {
 };
 using EvidenceList = std::vector<Evidence>;
 
+/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
+    NoSolution if there is none. */
+PeriodicMotion require_periodic(const Parameters& machine, double frequency,
+                                int harmonics, int samples = 0,
+                                const NewtonSettings& settings = {});
+
 struct DeviationScene {
   StrictToml toml;
   Parameters machine;         ///< exchanged reading
@@ -51,11 +57,22 @@ struct DeviationScene {
   }
 
   /** The periodic solution of the exchanged reading with m harmonics. */
-  PeriodicMotion solution(double frequency) const;
+  PeriodicMotion solution(double frequency) const
+  {
+    return require_periodic(machine, frequency, harmonics);
+  }
+
+  int points() const { return time_integration.stepper.intervals_per_period; }  ///< P
 
   /** One period of a solution, and the periods that an integration shows. */
-  motion::Motion motion_of(const PeriodicMotion& solution) const;
-  motion::Motion motion_of(const SteadyState& steady) const;
+  motion::Motion motion_of(const PeriodicMotion& solution) const
+  {
+    return motion::motion_of(solution.bodies, points());
+  }
+  motion::Motion motion_of(const SteadyState& steady) const
+  {
+    return motion::motion_of(steady, points());
+  }
 
   /** The steady state of a machine, and the motion on which the exchanged reading
       settles. The latter throws NoSolution if it is not T-periodic. */
@@ -67,12 +84,6 @@ struct DeviationScene {
 };
 
 DeviationScene read_deviation_scene(SceneFile& file);
-
-/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
-    NoSolution if there is none. */
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples = 0,
-                                const NewtonSettings& settings = {});
 
 inline void add(EvidenceList& list, const EvidenceList& more)
 {

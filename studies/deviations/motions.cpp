@@ -37,10 +37,7 @@ EvidenceList amplitude_definitions(const DeviationScene& scene)
     for (int row : {2, 3}) {
       const double half = half_peak_to_peak(series)[row];
       const double largest =
-          sample_series(series, scene.time_integration.stepper.intervals_per_period)
-              .col(row)
-              .cwiseAbs()
-              .maxCoeff();
+          sample_series(series, scene.points()).col(row).cwiseAbs().maxCoeff();
       const double rms = series.row(row).tail(series.cols() - 1).norm();  // times √2
       const std::string key = format("_%s_%s", row == 2 ? "x_r" : "y_r", name);
       add(list, {{"D-10.half" + key, half, "m", "half peak-to-peak"},
