@@ -11,7 +11,7 @@ int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   using namespace rotor_stator::deviations;
-  const std::vector<EvidenceList (*)(const DeviationScene&)> entries{
+  const std::vector<Entry*> entries{
       sign_of_approach,      printed_predictor,    arc_length_scaling,
       names_of_gamma,        samples_as_printed,   printed_newton_step,
       radius_of_hertz,       unit_of_stiffness,    two_readings,

@@ -151,7 +151,7 @@ void split_time(WorkPoint& point, const References& references)
   if (point.schedule.method() != "aft") {
     const double force =
         static_cast<double>(point.force_instants) *
-        seconds_of_force(references.parameters, *references.motions.front());
+        seconds_of_force(references.parameters, references.truths.front().motion);
     point.force_share = std::min(1.0, force / point.median);
     return;
   }
@@ -164,10 +164,8 @@ void split_time(WorkPoint& point, const References& references)
     force += method->counts().force_seconds / point.repetitions;
   });
   point.force_share = std::min(1.0, force / profiled.median);
-  if (point.transforms == 0) return;
-  const auto samples = static_cast<int>(point.transformed / point.transforms);
-  const double transforms =
-      static_cast<double>(point.transforms) * seconds_of_transform(samples);
+  const double transforms = static_cast<double>(point.transforms) *
+                            seconds_of_transform(point.schedule.at(0).sample_count());
   point.transform_share = std::min(1 - point.force_share, transforms / point.median);
 }
 
@@ -204,7 +202,7 @@ WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
                      bool continued, const Setting& setting)
 {
   const auto& [number, parameters, truth, before, agreement] = reference;
-  References references{{parameters, {truth.frequency}}, {truth.motion}};
+  References references{{parameters, {truth.frequency}}, {truth}};
   if (continued) references.before = {before.frequency, before.state};
   const double once = measure(references, setting, 1).median;
   const int repetitions = once > scene.long_run ? 2 : scene.repetitions;

@@ -50,12 +50,6 @@ Parameters machine_of(const Request& request, double from, double to,
                  to);
 }
 
-Parameters doubted(Parameters machine, double highest)
-{
-  machine.doubts = doubts(machine, highest);
-  return machine;
-}
-
 int checked_samples(int harmonics, const std::optional<int>& samples)
 {
   if (samples && *samples <= 2 * harmonics)

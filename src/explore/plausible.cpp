@@ -55,13 +55,6 @@ std::string doubt_of_speed(const Parameters& machine, double highest)
 constexpr double most_eccentric = 3e-3;  // [m]
 constexpr double deepest = 0.03;         // what a suspension sinks by [m]
 
-struct Doubts : std::vector<std::string> {
-  void add(bool is_doubted, const std::string& text)
-  {
-    if (is_doubted) push_back(text);
-  }
-};
-
 /** Of K_H, of steel balls: over the root of the diameter, or where that is not known. */
 void add_stiffness(Doubts& all, const Bearing& bearing)
 {
@@ -185,7 +178,7 @@ void add_bodies(Doubts& all, const Parameters& machine)
 
 }  // namespace
 
-std::vector<std::string> doubts(const Parameters& machine, double highest)
+Doubts doubts(const Parameters& machine, double highest)
 {
   constexpr double heaviest = 30;      // gravity of any planet [m/s²]
   constexpr double most_hertz = 1000;  // of a suspension
@@ -226,6 +219,12 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   if (all.empty()) add_sag(all, machine);
   if (all.empty()) add_damper(all, machine);
   return all;
+}
+
+Parameters doubted(Parameters machine, double highest)
+{
+  machine.doubts = doubts(machine, highest);
+  return machine;
 }
 
 }  // namespace rotor_stator::explore

@@ -11,15 +11,22 @@ meant. Nothing is refused: the words stand in the header and, at the end, on std
 
 namespace rotor_stator::explore {
 
+/** A sentence for each doubt. */
+struct Doubts : std::vector<std::string> {
+  void add(bool is_doubted, const std::string& text)
+  {
+    if (is_doubted) push_back(text);
+  }
+};
+
 /** `machine` with its doubts up to a speed [Hz]. */
 Parameters doubted(Parameters machine, double highest);
 
 /** Of Hertz, above which a ball marks its race for good [Pa]. */
 inline constexpr double most_pressure = 4e9;
 
-/** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
-    each. */
-std::vector<std::string> doubts(const Parameters& machine, double highest);
+/** About the machine and the highest speed [Hz] that it is asked for. */
+Doubts doubts(const Parameters& machine, double highest);
 
 /** A value, or the largest number that is printed, 1e300, where it is beyond. */
 double printable_size(double value);

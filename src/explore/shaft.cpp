@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
 #include "io/output_file.hpp"
@@ -183,27 +184,26 @@ double mass_of(const SparseMatrix& m)
 }
 
 /** What no shaft of metal or plastic has. */
-void warn(Table& table, const Shaft& shaft, double over_stiffness)
+Doubts doubts_of(const Shaft& shaft, double over_stiffness)
 {
   constexpr double softest = 1e9, stiffest = 1e12;                    // [Pa]
   constexpr double massless = 0.5, lightest = 500, heaviest = 25000;  // [kg/m³]
   constexpr double longest = 50, slowest = 0.1;                       // [m], [s]
   const auto& [young, shear, density] = shaft.steel;
-  const auto doubt = [&](bool is_doubted, const std::string& text) {
-    if (is_doubted) table.warning(text);
-  };
-  doubt(young < softest || young > stiffest,
-        format("a modulus of %.3g Pa: is it in Pa?", young));
-  doubt((density > massless && density < lightest) || density > heaviest,
-        format("a density of %.3g kg/m^3: is it in kg/m^3?", density));
+  Doubts all;
+  all.add(young < softest || young > stiffest,
+          format("a modulus of %.3g Pa: is it in Pa?", young));
+  all.add((density > massless && density < lightest) || density > heaviest,
+          format("a density of %.3g kg/m^3: is it in kg/m^3?", density));
   const double nu = young / (2 * shear) - 1;
-  doubt(nu < 0 || nu > 0.5,
-        format("the moduli give a Poisson's ratio of %.3g: are both in Pa?", nu));
-  doubt(shaft.z.back() > longest,
-        format("a shaft of %.3g m: are its lengths in m?", shaft.z.back()));
-  doubt(over_stiffness > slowest,
-        format("a damping of %.3g s over the stiffness: steel has less than 1e-4",
-               over_stiffness));
+  all.add(nu < 0 || nu > 0.5,
+          format("the moduli give a Poisson's ratio of %.3g: are both in Pa?", nu));
+  all.add(shaft.z.back() > longest,
+          format("a shaft of %.3g m: are its lengths in m?", shaft.z.back()));
+  all.add(over_stiffness > slowest,
+          format("a damping of %.3g s over the stiffness: steel has less than 1e-4",
+                 over_stiffness));
+  return all;
 }
 
 }  // namespace
@@ -258,7 +258,7 @@ Exploration explore_shaft(const ShaftRequest& request)
   table.value("degrees_of_freedom", 4 * shaft.z.size());
   table.value("mass", mass_of(m));
   table.note("mass [kg]: of all; damping over_stiffness_s: over K with the supports");
-  warn(table, shaft, over_stiffness);
+  for (const std::string& doubt : doubts_of(shaft, over_stiffness)) table.warning(doubt);
   table.note("matrices: M, C, G, K in " + request.folder);
   for (std::size_t i = 0; i < shaft.z.size(); ++i)
     table.row({i + 1, shaft.z[i], 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4});

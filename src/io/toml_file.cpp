@@ -302,7 +302,7 @@ bool StrictToml::has_tables(const std::string& key) const
   return content_->table[key].is_array();
 }
 
-std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) const
+std::size_t StrictToml::way(const Ways& ways) const
 {
   std::string given, advice;
   std::size_t taken = ways.size();
@@ -413,13 +413,13 @@ void StrictToml::fail(const std::string& key, const std::string& problem) const
                  content_->path + name + " " + problem);
 }
 
-void StrictToml::may_hold(const std::vector<std::string>& keys) const
+void StrictToml::may_hold(const Ways& keys) const
 {
-  content_->expected.insert(keys.begin(), keys.end());
+  for (const auto& way : keys) content_->expected.insert(way.begin(), way.end());
 }
 
 void StrictToml::missing(const std::string& key, const std::string& advice,
-                         const std::vector<std::vector<std::string>>& ways) const
+                         const Ways& ways) const
 {
   std::vector<std::string> wanted{key};
   for (const auto& way : ways) wanted.insert(wanted.end(), way.begin(), way.end());

@@ -22,6 +22,9 @@ std::ifstream open_file(const std::string& file, const std::string& expected,
 /** What a number must satisfy, beside being finite. */
 enum class Range { any, positive, not_negative };
 
+/** Several ways to give one value, each a list of keys. */
+using Ways = std::vector<std::vector<std::string>>;
+
 /** One table of a TOML file. Copies share the record of the keys that were read. */
 class StrictToml {
 public:
@@ -46,9 +49,9 @@ public:
   /** Whether the key is there as [[key]]. */
   bool has_tables(const std::string& key) const;
 
-  /** Which of several ways to give one value is taken, each a list of keys: the one of
-      which any key is there. Throws BadInput where there are keys of two, or of none. */
-  std::size_t way(const std::vector<std::vector<std::string>>& ways) const;
+  /** Which of the ways is taken: the one of which any key is there. Throws BadInput where
+      there are keys of two, or of none. */
+  std::size_t way(const Ways& ways) const;
 
   double number(const std::string& key, Range range);
   double number_or(const std::string& key, Range range, double otherwise)
@@ -81,13 +84,14 @@ public:
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 
-  /** All keys that may stand here: beside a missing one any other is named. */
-  void may_hold(const std::vector<std::string>& keys) const;
+  /** All keys that may stand here, in one call or several: beside a missing one any other
+      is named. */
+  void may_hold(const Ways& keys) const;
 
   /** Throws BadInput about a required key: names the key that it, or one of other `ways`
       to give the value, may have been misspelt as, if any. */
   [[noreturn]] void missing(const std::string& key, const std::string& advice = "",
-                            const std::vector<std::vector<std::string>>& ways = {}) const;
+                            const Ways& ways = {}) const;
 
   /** Throws BadInput if a key, also of a table in it that was read, was never read. */
   void refuse_unknown_keys() const;

@@ -12,11 +12,26 @@
 
 namespace rotor_stator {
 
+const Ways clearance_ways{
+    {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
+
 namespace {
 
 constexpr int most_balls = 1024;
 
 const char* const designation_key = "designation";
+constexpr const char *exponent_key = "contact_exponent",
+                     *power_key = "contact_stiffness_N_per_mn";
+
+const Ways cage_ways{{"cage_speed_ratio"},
+                     {"ball_radius_m", "inner_race_radius_m"},
+                     {"ball_diameter_m", "pitch_diameter_m"},
+                     {designation_key}};
+const Ways stiffness_ways{
+    {"contact_stiffness_N_per_m1p5"},
+    {power_key, exponent_key},
+    {"inner_groove_ratio", "outer_groove_ratio", "youngs_modulus_Pa", "poissons_ratio"},
+    {designation_key}};
 
 /** The catalogue's tables [[`key`]]. */
 std::vector<StrictToml> catalogue(const std::string& key)
@@ -101,10 +116,7 @@ struct Diameters {
     same table. */
 Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 {
-  const std::size_t way = table.way({{"cage_speed_ratio"},
-                                     {"ball_radius_m", "inner_race_radius_m"},
-                                     {"ball_diameter_m", "pitch_diameter_m"},
-                                     {designation_key}});
+  const std::size_t way = table.way(cage_ways);
   constexpr const char *angle_key = "contact_angle_rad",
                        *outer_key = "outer_ring_speed_ratio";
   const double angle = bearing.contact_angle =
@@ -178,14 +190,12 @@ double read_clearance(StrictToml& table, StrictToml& source,
                       const std::string& by_designation,
                       std::vector<std::string>& derived, std::string& doubt)
 {
-  const std::vector<std::vector<std::string>> ways{
-      {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
-  const bool is_given =
-      std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
+  const bool is_given = std::ranges::any_of(
+      clearance_ways, [&](const auto& keys) { return table.has(keys[0]); });
   const bool has_designation = table.has(designation_key);
-  const std::size_t way = is_given || !has_designation ? table.way(ways) : 2;
+  const std::size_t way = is_given || !has_designation ? table.way(clearance_ways) : 2;
   if (way < 2) {
-    const double given = table.number(ways[way][0], Range::any),
+    const double given = table.number(clearance_ways[way][0], Range::any),
                  radial = way == 0 ? given : given / 2;
     if (way == 1)
       derived.push_back(
@@ -232,15 +242,9 @@ double groove_ratio(StrictToml& source, const std::string& key)
 double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& diameters,
                       Bearing& bearing, std::vector<std::string>& derived)
 {
-  constexpr const char *exponent_key = "contact_exponent",
-                       *power_key = "contact_stiffness_N_per_mn";
   if (table.has(exponent_key) && !table.has(power_key))
     table.fail(exponent_key, std::string("needs ") + power_key + ", in N/m^n");
-  const std::size_t way = table.way({{"contact_stiffness_N_per_m1p5"},
-                                     {power_key, exponent_key},
-                                     {"inner_groove_ratio", "outer_groove_ratio",
-                                      "youngs_modulus_Pa", "poissons_ratio"},
-                                     {designation_key}});
+  const std::size_t way = table.way(stiffness_ways);
   if (way == 0) return table.number("contact_stiffness_N_per_m1p5", Range::positive);
   if (way == 1) {
     bearing.exponent = table.number(exponent_key, Range::positive);
@@ -336,15 +340,11 @@ KinematicOrders kinematic_orders(const Bearing& bearing)
 
 Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
 {
-  table.may_hold({"balls", designation_key, "cage_speed_ratio", "ball_radius_m",
-                  "inner_race_radius_m", "ball_diameter_m", "pitch_diameter_m",
-                  "contact_angle_rad", "outer_ring_speed_ratio", "cage_phase_rad",
-                  "stator_dofs", "rotor_dofs", "defect", "parallel"});
-  table.may_hold({"contact_stiffness_N_per_m1p5", "contact_stiffness_N_per_mn",
-                  "contact_exponent", "inner_groove_ratio", "outer_groove_ratio",
-                  "youngs_modulus_Pa", "poissons_ratio", "radial_clearance_m",
-                  "diametral_clearance_m", "internal_clearance",
-                  "contact_damping_s_per_m"});
+  for (const Ways& ways : {cage_ways, stiffness_ways, clearance_ways})
+    table.may_hold(ways);
+  table.may_hold(
+      {{"balls", "contact_angle_rad", "outer_ring_speed_ratio", "cage_phase_rad",
+        "stator_dofs", "rotor_dofs", "defect", "parallel", "contact_damping_s_per_m"}});
   Bearing bearing{};
   const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
   const Designation name = has_count ? Designation{} : read_designation(table);

@@ -32,6 +32,9 @@ seals and cage may stand in a designation; the class of clearance in it counts. 
 
 namespace rotor_stator {
 
+/** Ways to give the clearance. */
+extern const Ways clearance_ways;
+
 /** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`,
     lines for headers. Throws BadInput for a value given in two ways, or in none. */
 Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived);

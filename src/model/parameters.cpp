@@ -20,17 +20,21 @@ double derived(StrictToml& table, const char* key, double value)
   return value;
 }
 
+const Ways suspension_ways{{"natural_frequency_rad_per_s"}, {"stiffness_N_per_m"}};
+const Ways damping_ways{{"damping_ratio"}, {"damping_N_s_per_m"}};
+const Ways unbalance_ways{
+    {"unbalance_kg_m"}, {"eccentricity_m"}, {"balance_grade", "balance_speed_rad_per_s"}};
+
 Body read_body(StrictToml& table)
 {
-  table.may_hold({"mass_kg", "natural_frequency_rad_per_s", "stiffness_N_per_m",
-                  "damping_ratio", "damping_N_s_per_m", "load_N", ground_key, "matrices",
-                  "unbalance_kg_m", "eccentricity_m", "balance_grade",
-                  "balance_speed_rad_per_s"});
+  table.may_hold({{"mass_kg", "load_N", ground_key, "matrices"}});
+  for (const Ways& ways : {suspension_ways, damping_ways, unbalance_ways})
+    table.may_hold(ways);
   Body body{};
   body.mass = table.number("mass_kg", Range::positive);
   constexpr const char *frequency_key = "natural_frequency_rad_per_s",
                        *stiffness_key = "stiffness_N_per_m";
-  if (table.way({{frequency_key}, {stiffness_key}}) == 0)
+  if (table.way(suspension_ways) == 0)
     body.natural_frequency = table.number(frequency_key, Range::not_negative);
   else
     body.natural_frequency =
@@ -41,7 +45,7 @@ Body read_body(StrictToml& table)
     table.missing("damping_N_s_per_m",
                   ": a body without a suspension has no damping_ratio; 0, or what damps "
                   "it against the ground");
-  if (table.way({{"damping_ratio"}, {"damping_N_s_per_m"}}) == 0)
+  if (table.way(damping_ways) == 0)
     body.damping_ratio = table.number("damping_ratio", Range::not_negative);
   else
     body.damper = table.number("damping_N_s_per_m", Range::not_negative);
@@ -62,7 +66,7 @@ double read_unbalance(StrictToml& table, const Body& rotor)
 {
   constexpr const char *key = "eccentricity_m", *grade = "balance_grade",
                        *speed = "balance_speed_rad_per_s";
-  const std::size_t way = table.way({{"unbalance_kg_m"}, {key}, {grade, speed}});
+  const std::size_t way = table.way(unbalance_ways);
   if (way == 0) return table.number("unbalance_kg_m", Range::not_negative);
   if (way == 1)
     return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
@@ -98,7 +102,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   parameters.identity.add(std::as_bytes(std::span(read)));
   constexpr const char *matrices = "matrices", *bearing_key = "bearing",
                        *gravity_key = "acceleration_m_per_s2";
-  root.may_hold({"title", "stator", "rotor", bearing_key, "gravity"});
+  root.may_hold({{"title", "stator", "rotor", bearing_key, "gravity"}});
   parameters.title = root.string("title");
 
   StrictToml stator = root.table("stator"), rotor = root.table("rotor");
@@ -109,7 +113,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     parameters.stator = read_body(stator);
   if (is_mass) parameters.unbalance = read_unbalance(rotor, parameters.rotor);
   StrictToml gravity = root.table("gravity");
-  gravity.may_hold({gravity_key});
+  gravity.may_hold({{gravity_key}});
   parameters.gravity = gravity.number(gravity_key, Range::not_negative);
   const bool has_matrices =
       !is_mass || stator.has(matrices) || stator.has(ground_key) || rotor.has(ground_key);
@@ -228,14 +232,7 @@ bool is_bare(const Parameters& parameters)
 
 bool excludes(const std::string& key, const std::string& other)
 {
-  using Ways = std::vector<std::vector<std::string>>;
-  static const std::vector<Ways> all{
-      {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}},
-      {{"damping_ratio"}, {"damping_N_s_per_m"}},
-      {{"natural_frequency_rad_per_s"}, {"stiffness_N_per_m"}},
-      {{"unbalance_kg_m"},
-       {"eccentricity_m"},
-       {"balance_grade", "balance_speed_rad_per_s"}}};
+  const auto all = {clearance_ways, damping_ways, suspension_ways, unbalance_ways};
   return std::ranges::any_of(all, [&](const Ways& ways) {
     const auto way_of = [&](const std::string& name) {
       return std::ranges::find_if(

@@ -280,26 +280,6 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
                             request.omega / angular(1), answer.error->larger()));
 }
 
-Answer answer(const Parameters& parameters, const Request& request,
-              const OperationBudget& budget)
-{
-  Question question{.parameters = parameters,
-                    .request = request,
-                    .budget = budget,
-                    .transient_share = parameters.bodies->patience().transient_share};
-  Answer found = settled_answer(question);
-  while (found.kind() == Kind::chaotic) {
-    auto seen = attempt([&] { return observe(found, budget.part(0.3)); });
-    if (!seen.has_value()) break;
-    found.seen = seen.get();
-    if (question.start || !found.seen->closed) break;
-    question.start = found.seen->closed;
-    found = settled_answer(question);
-  }
-  complete(found, request, budget);
-  return found;
-}
-
 namespace {
 
 /** Sums over the instants of one base period. */
@@ -462,10 +442,11 @@ static std::vector<Observed> observed_once(std::span<const Question> questions)
   for (std::size_t k = 0; k < questions.size(); ++k)
     observings.push_back(attempt([&]() -> std::unique_ptr<Observing> {
       const Answer& at = answers[k].get();
-      if (!questions[k].is_observed) return nullptr;
-      const Request& request = questions[k].request;
+      const auto& [parameters, request, budget, start, share, is_observed] = questions[k];
+      if (!is_observed && at.kind() != Kind::chaotic) return nullptr;
       return std::make_unique<Observing>(at, settling_method(request),
-                                         step_of(request, at), questions[k].budget);
+                                         step_of(request, at),
+                                         is_observed ? budget : budget.part(0.3));
     }));
   travel(observings);
   std::vector<Observed> all;
@@ -489,11 +470,21 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
   return all;
 }
 
-Observation observe(const Answer& answer, const OperationBudget& budget)
+Answer answer(const Parameters& parameters, const Request& request,
+              const OperationBudget& budget)
 {
-  Observing one(answer, "auto", step_of({}, answer), budget);
-  travel(std::vector<Traveller*>{&one});
-  return one.seen();
+  const Question question{
+      .parameters = parameters,
+      .request = request,
+      .budget = budget,
+      .transient_share = parameters.bodies->patience().transient_share,
+      .is_observed = false};
+  Observed observed = std::move(observed_answers({&question, 1}).front());
+  Answer found = std::move(observed.answer.get());
+  if (found.kind() == Kind::chaotic && observed.seen.has_value())
+    found.seen = observed.seen.get();
+  complete(found, request, budget);
+  return found;
 }
 
 }  // namespace rotor_stator::motion

@@ -90,7 +90,7 @@ struct Question {
   OperationBudget budget = {};
   std::optional<State> start = {};  ///< in the place of rest, at the same time
   double transient_share = 1;       ///< of the budget, until it has settled
-  bool is_observed = true;          ///< with an `Observation`
+  bool is_observed = true;          ///< with an `Observation`, else of chaos alone
 };
 
 /** The two halves of an answer: what the machine settles on, of all questions side by
@@ -99,9 +99,9 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
 Answer settled_answer(const Question& question);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-Observation observe(const Answer& answer, const OperationBudget& budget = {});
-
-/** What all questions settle on, and what is reported of it, side by side. */
+/** What all questions settle on, and what is reported of it, side by side. A motion that
+    closes while it is observed is settled anew from there, once. Where chaos alone is
+    observed, that takes at most 30 % of the budget. */
 struct Observed {
   Attempt<Answer> answer;
   Attempt<Observation> seen;

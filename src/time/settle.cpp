@@ -27,6 +27,20 @@ double apart(const Parameters& machine, const State& a, const State& b)
       .maxCoeff();
 }
 
+Eigen::VectorXcd free_modes(const Parameters& machine, double joint_stiffness)
+{
+  const Body &s = machine.stator, &r = machine.rotor;
+  const double k = joint_stiffness;
+  Eigen::Matrix4d a = Eigen::Matrix4d::Zero();  // of x_s, x_r and their speeds
+  a.topRightCorner<2, 2>().setIdentity();
+  a.bottomLeftCorner<2, 2>() << -(s.stiffness() + k) / s.mass, k / s.mass, k / r.mass,
+      -(r.stiffness() + k) / r.mass;
+  a(2, 2) = -s.damping() / s.mass;
+  a(3, 3) = -r.damping() / r.mass;
+  if (!a.allFinite()) return {};  // no step is short enough, which is said there
+  return eigenvalues(a);
+}
+
 namespace {
 
 /** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by
@@ -35,20 +49,10 @@ struct SlowestMode {
   double decay = std::numeric_limits<double>::infinity(), frequency = decay;
 };
 
-/** Eigenvalues of one direction: x_s, x_r and their speeds. */
 SlowestMode slowest_mode(const Parameters& machine)
 {
-  const Body &s = machine.stator, &r = machine.rotor;
-  const double joint = scales(machine).stiffness;
-  Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
-  a.topRightCorner<2, 2>().setIdentity();
-  a.bottomLeftCorner<2, 2>() << -(s.stiffness() + joint) / s.mass, joint / s.mass,
-      joint / r.mass, -(r.stiffness() + joint) / r.mass;
-  a(2, 2) = -s.damping() / s.mass;
-  a(3, 3) = -r.damping() / r.mass;
   SlowestMode slowest;
-  if (!a.allFinite()) return slowest;  // no step is short enough, which is said there
-  for (const auto& value : eigenvalues(a)) {
+  for (const auto& value : free_modes(machine, scales(machine).stiffness)) {
     slowest.decay = std::min(slowest.decay, std::max(0.0, -value.real()));
     if (std::abs(value) > 0)
       slowest.frequency = std::min(slowest.frequency, std::abs(value));

@@ -127,6 +127,10 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule = {},
                const OperationBudget& budget = {});
 
+/** Eigenvalues [1/s] of the four free modes of both bodies joined in one direction by a
+    linear stiffness [N/m]: decay rates and frequencies. None where they overflow. */
+Eigen::VectorXcd free_modes(const Parameters& machine, double joint_stiffness);
+
 /** The largest difference of two states, over the sizes of their components [-]. */
 double apart(const Parameters& machine, const State& a, const State& b);
 

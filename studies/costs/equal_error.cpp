@@ -40,16 +40,14 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references)
 {
   std::vector<References> ranges(scene.range_ends.size(), {{scene.parameters, {}}, {}});
-  for (std::size_t k = 0; k < references.frequencies.size(); ++k) {
-    if (!references.motions[k]) continue;
-    const double frequency = references.frequencies[k];
-    const auto end =
-        std::lower_bound(scene.range_ends.begin(), scene.range_ends.end(), frequency);
+  for (const TrueMotion& truth : references.truths) {
+    if (!truth.periodic) continue;
+    const auto end = std::ranges::lower_bound(scene.range_ends, truth.frequency);
     References& range = ranges.at(end - scene.range_ends.begin());
-    range.frequencies.push_back(frequency);
-    range.motions.push_back(references.motions[k]);
+    range.frequencies.push_back(truth.frequency);
+    range.truths.push_back(truth);
   }
-  std::erase_if(ranges, [](const References& range) { return range.motions.empty(); });
+  std::erase_if(ranges, [](const References& range) { return range.truths.empty(); });
   return ranges;
 }
 
@@ -63,7 +61,7 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
   for (const SettingGroup& group : watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
       if (used > scene.search) return tried;
-      tried.push_back(tried_once(range, setting));
+      tried.push_back(measure(range, setting, 1));
       const double cpu = tried.back().median;
       used += cpu;
       if (tried.back().*scene.error <= scene.targets.back()) least = std::min(least, cpu);
@@ -104,10 +102,13 @@ static std::vector<std::size_t> least_path(const std::vector<Measurement>& tried
   return path;
 }
 
-std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
-                                          const References& range,
-                                          const std::vector<Measurement>& tried,
-                                          double target)
+/** The settings that stay below the target at their speeds and take the least CPU
+    together. A speed that misses the target among its new neighbours takes another
+    one. */
+static std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
+                                                 const References& range,
+                                                 const std::vector<Measurement>& tried,
+                                                 double target)
 {
   constexpr int attempts = 12;
   const std::size_t speeds = range.frequencies.size();
@@ -157,6 +158,23 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
         aft.target == target)
       row.ratio = row.median / aft.median;
   return row;
+}
+
+Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
+                     const MotionError& target)
+{
+  if (!std::isfinite(target.displacement))
+    throw NoSolution(
+        format("no harmonic-balance solution at %g Hz", target.worst_frequency));
+  for (const Setting& setting : watched("RK4 settings", settings)) {
+    const MotionError error = error_up_to(target.displacement, references, setting);
+    if (error.displacement <= target.displacement && error.force <= target.force)
+      return setting;
+  }
+  throw NoSolution(
+      format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g of "
+             "force",
+             target.displacement, target.force));
 }
 
 namespace {

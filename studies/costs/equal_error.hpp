@@ -40,14 +40,6 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
                                       const References& range,
                                       const Candidates& candidates);
 
-/** The settings that stay below the target at their speeds and take the least CPU
-    together. A speed that misses the target among its new neighbours takes another
-    one. */
-std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
-                                          const References& range,
-                                          const std::vector<Measurement>& tried,
-                                          double target);
-
 /** One method in one range at one target: its cheapest settings that reach the target, or
     the setting with the least error where none does. */
 struct EqualErrorRow : Measurement {
@@ -62,6 +54,12 @@ struct EqualErrorRow : Measurement {
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows);
+
+/** The first of these settings, cheapest first, that reaches both errors of a balance.
+    Nothing is timed. Throws NoSolution when the balance failed at a periodic speed, or
+    when none reaches them. */
+Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
+                     const MotionError& target);
 
 Table equal_error_table(const EqualErrorScene& scene, const References& references,
                         const std::vector<EqualErrorRow>& rows);

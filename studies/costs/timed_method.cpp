@@ -1,12 +1,10 @@
 #include "costs/timed_method.hpp"
 
-#include <gsl/gsl_fit.h>
 #include <time.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
@@ -19,11 +17,6 @@
 #include "time/side_by_side.hpp"
 
 namespace rotor_stator::costs {
-
-bool Setting::has_fixed_step() const
-{
-  return rotor_stator::has_fixed_step(stepper()) || method == "central";
-}
 
 std::string Setting::stepper() const
 {
@@ -65,55 +58,49 @@ std::string Schedule::text() const
 
 namespace {
 
-/** Every setting of `group` with each of `values` in one of its fields. */
-template <class Value>
-SettingGroup each(const SettingGroup& group, Value Setting::*field,
-                  const std::vector<Value>& values)
-{
-  SettingGroup all;
-  for (const Setting& setting : group)
-    for (const Value& value : values) {
-      all.push_back(setting);
-      all.back().*field = value;
-    }
-  return all;
-}
-
 /** A group for each number of harmonics and each start: which is cheaper depends on the
     speeds. */
-Candidates balances(StrictToml table, const std::string& method)
+std::vector<SettingGroup> balances(StrictToml table)
 {
-  const SettingGroup ms = each(SettingGroup{{.method = method}}, &Setting::harmonics,
-                               table.integers("harmonics", 1, 4096));
+  const auto transients = table.numbers("transients_s", Range::not_negative);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
   const auto tolerances = table.numbers("newton_tolerances", Range::positive);
-  Candidates all{method, {}};
-  for (const Setting& setting :
-       each(ms, &Setting::transient, table.numbers("transients_s", Range::not_negative)))
-    all.groups.push_back(
-        each(each({setting}, &Setting::samples_per_harmonic, per_harmonic),
-             &Setting::tolerance, tolerances));
-  table.refuse_unknown_keys();
-  return all;
+  std::vector<SettingGroup> groups;
+  for (int harmonics : table.integers("harmonics", 1, 4096))
+    for (double transient : transients) {
+      SettingGroup& group = groups.emplace_back();
+      for (int samples : per_harmonic)
+        for (double tolerance : tolerances)
+          group.push_back({.method = "aft",
+                           .harmonics = harmonics,
+                           .samples_per_harmonic = samples,
+                           .tolerance = tolerance,
+                           .transient = transient});
+    }
+  return groups;
 }
 
 /** A group for each step or local error. */
-Candidates integrations(StrictToml table, const std::string& method)
+std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
 {
-  const bool fixed_step = Setting{.method = method}.has_fixed_step();
-  const SettingGroup accuracies = each(
-      SettingGroup{{.method = method}}, fixed_step ? &Setting::step : &Setting::tolerance,
-      table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive));
+  const Setting plain{.method = method};
+  const bool fixed_step = has_fixed_step(plain.stepper()) || method == "central";
   const auto transients = table.numbers("transients_s", Range::positive);
-  const auto residuals = Setting{.method = method}.is_shooting()
-                             ? table.numbers("closures", Range::positive)
-                             : std::vector<double>{0};
-  Candidates all{method, {}};
-  for (const Setting& setting : accuracies)
-    all.groups.push_back(each(each({setting}, &Setting::periodicity_residual, residuals),
-                              &Setting::transient, transients));
-  table.refuse_unknown_keys();
-  return all;
+  const auto residuals = plain.is_shooting() ? table.numbers("closures", Range::positive)
+                                             : std::vector<double>{0};
+  std::vector<SettingGroup> groups;
+  for (double accuracy :
+       table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive)) {
+    SettingGroup& group = groups.emplace_back();
+    for (double residual : residuals)
+      for (double transient : transients) {
+        Setting& one = group.emplace_back(plain);
+        (fixed_step ? one.step : one.tolerance) = accuracy;
+        one.periodicity_residual = residual;
+        one.transient = transient;
+      }
+  }
+  return groups;
 }
 
 }  // namespace
@@ -126,18 +113,16 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
                              "shooting-rk8"});
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {
-    if (std::find(known.begin(), known.end(), method) == known.end()) {
-      std::string list;
-      for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-      toml.fail("methods", "must be some of " + list);
-    }
+    if (std::ranges::find(known, method) == known.end())
+      toml.fail("methods", "must be some of " + joined(known, ", "));
+    StrictToml table = toml.table(method);
     all.push_back(
-        (method == "aft" ? balances : integrations)(toml.table(method), method));
+        {method, method == "aft" ? balances(table) : integrations(table, method)});
   }
   return all;
 }
 
-double thread_cpu_seconds()
+static double thread_cpu_seconds()
 {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -156,26 +141,22 @@ CpuTime time_of(int repetitions, const std::function<void()>& work)
   return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
 }
 
-void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
+void TimedMethod::run()
 {
-  counts_ = {};
   begin();
-  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
-    solve(k);
-    if (goes_on && !goes_on(k)) return;
-  }
+  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) solve(k);
 }
 
 std::vector<double> TimedMethod::seconds_by_speed()
 {
   std::vector<double> seconds;
-  double before = thread_cpu_seconds();
-  run([&](std::size_t) {
-    const double now = thread_cpu_seconds();
-    seconds.push_back(now - before);
-    before = now;
-    return true;
-  });
+  for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
+    const CpuTime time = time_of(1, [&] {
+      if (k == 0) begin();
+      solve(k);
+    });
+    seconds.push_back(time.median);
+  }
   return seconds;
 }
 
@@ -235,28 +216,23 @@ public:
           4 * (evaluations + one->solver.factorisations() + one->solver.iterations());
       counts.force_instants += evaluations * samples;
       counts.transforms += transforms;
-      counts.transformed += transforms * samples;
     }
-    counts.force_seconds = *force_seconds_;
+    counts.force_seconds = force_seconds_;
     return counts;
   }
 
 private:
   struct Solved {
     Balance balance;
-    BalanceSolver solver;  ///< keeps its factors from speed to speed
-
-    Solved(Problem problem, int harmonics)
-        : balance(std::move(problem), harmonics), solver(balance)
-    {
-    }
+    BalanceSolver solver{balance};  ///< keeps its factors from speed to speed
   };
 
   void begin() override
   {
+    counts_ = {};
     bodies_.assign(task_.frequencies.size(), {});
     balances_.clear();
-    *force_seconds_ = 0;
+    force_seconds_ = 0;
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
     ArcLengthSettings settings = arc_length_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
@@ -289,13 +265,13 @@ private:
     if (one) return *one;
     Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
     if (task_.profiled)
-      problem.force = [inner = problem.force, seconds = force_seconds_](
+      problem.force = [inner = problem.force, &seconds = force_seconds_](
                           const auto& q, auto&&... results) {
         const double start = thread_cpu_seconds();
         inner(q, results...);
-        *seconds += thread_cpu_seconds() - start;
+        seconds += thread_cpu_seconds() - start;
       };
-    one = std::make_unique<Solved>(std::move(problem), setting_.harmonics);
+    one.reset(new Solved{Balance(std::move(problem), setting_.harmonics)});
     return *one;
   }
 
@@ -307,9 +283,7 @@ private:
     const NewtonSettings newton{
         .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
     const auto from = [&](Eigen::VectorXd x) {
-      const Eigen::Index known = std::min(x.size(), one.balance.unknowns());
-      found.x = Eigen::VectorXd::Zero(one.balance.unknowns());
-      found.x.head(known) = x.head(known);
+      found.x = resize_harmonics(std::move(x), 2, setting_.harmonics);
       return rotor_stator::solve(one.balance, one.solver, found, newton);
     };
     if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
@@ -353,7 +327,7 @@ private:
   State state_;  ///< of the coarse integration, at phase 0
   LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
-  std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
+  double force_seconds_ = 0;
 };
 
 /** Time integration and shooting end in a state at each speed; one period from it, by the
@@ -377,6 +351,7 @@ public:
 protected:
   void begin() override
   {
+    counts_ = {};
     reached_.assign(task_.frequencies.size(), {});
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
   }
@@ -466,11 +441,10 @@ class Ensemble : public Integration {
 public:
   using Integration::Integration;
 
-  void run(const std::function<bool(std::size_t speed)>& goes_on) override
+  void begin() override
   {
-    counts_ = {};
+    Integration::begin();
     evaluations_.clear();
-    begin();
     const std::size_t speeds = task_.frequencies.size();
     std::vector<std::unique_ptr<Flow>> flows;
     std::vector<State> states(speeds);
@@ -489,13 +463,14 @@ public:
       reached_[k] = {passages[k].count, states[k]};
     }
     for (const Failure& failure : failures) reached_[failure.passage].reset();
-    for (std::size_t k = 0; goes_on && k < speeds && goes_on(k); ++k) continue;
   }
+
+  void solve(std::size_t /*speed*/) override {}
 
   /** The whole, shared as the evaluations are. */
   std::vector<double> seconds_by_speed() override
   {
-    const double whole = time_of(1, [&] { run({}); }).median;
+    const double whole = time_of(1, [&] { begin(); }).median;
     const auto all = static_cast<double>(std::max(1L, counts_.force_instants));
     std::vector<double> seconds;
     for (long one : evaluations_)
@@ -510,10 +485,10 @@ private:
 MotionError error_at(const TimedMethod& method, const References& sweep,
                      std::size_t speed)
 {
-  const auto& truth = sweep.motions[speed];
-  if (!truth) return {};
-  return error_of(sweep.parameters, sweep.frequencies[speed],
-                  method.motion(speed, truth->points_per_period), *truth);
+  const TrueMotion& truth = sweep.truths[speed];
+  if (!truth.periodic) return {};
+  return error_of(sweep.parameters, method.motion(speed, truth.motion.points_per_period),
+                  truth);
 }
 
 }  // namespace
@@ -527,32 +502,21 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
   return std::make_unique<Integration>(task, schedule);
 }
 
-/** What a method has found and counted in its last run. */
-static Measurement judged(const TimedMethod& method, const References& sweep,
-                          const Schedule& schedule, const CpuTime& time, int repetitions)
-{
-  Measurement result{time, method.counts(), {}, schedule, repetitions};
-  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
-    result.errors.push_back(error_at(method, sweep, speed));
-    result.include(result.errors.back());
-  }
-  return result;
-}
-
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions)
 {
   const auto method = timed_method(sweep, schedule);
-  const CpuTime time = time_of(repetitions, [&] { method->run(); });
-  return judged(*method, sweep, schedule, time, repetitions);
-}
-
-Measurement tried_once(const References& sweep, const Schedule& schedule)
-{
-  const auto method = timed_method(sweep, schedule);
-  const std::vector<double> seconds = method->seconds_by_speed();
-  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  Measurement result = judged(*method, sweep, schedule, {all, all, all}, 1);
-  result.seconds = seconds;
+  std::vector<double> seconds;
+  const CpuTime time = time_of(repetitions, [&] {
+    if (repetitions == 1)
+      seconds = method->seconds_by_speed();
+    else
+      method->run();
+  });
+  Measurement result{time, method->counts(), {}, schedule, repetitions, seconds};
+  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
+    result.errors.push_back(error_at(*method, sweep, speed));
+    result.include(result.errors.back());
+  }
   return result;
 }
 
@@ -560,22 +524,22 @@ MotionError error_up_to(double bound, const References& sweep, const Schedule& s
 {
   const auto method = timed_method(sweep, schedule);
   MotionError error;
-  method->run([&](std::size_t speed) {
-    error.include(error_at(*method, sweep, speed));
-    return error.displacement <= bound;
-  });
+  method->begin();
+  for (std::size_t k = 0; k < sweep.frequencies.size() && error.displacement <= bound;
+       ++k) {
+    method->solve(k);
+    error.include(error_at(*method, sweep, k));
+  }
   return error;
 }
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
 {
-  std::vector<double> log_x, log_y;
-  for (double value : x) log_x.push_back(std::log(value));
-  for (double value : y) log_y.push_back(std::log(value));
-  double level, slope, var_level, covariance, var_slope, squares;
-  gsl_fit_linear(log_x.data(), 1, log_y.data(), 1, x.size(), &level, &slope, &var_level,
-                 &covariance, &var_slope, &squares);
-  return slope;
+  const auto logarithms = [](const std::vector<double>& values) -> Eigen::ArrayXd {
+    return Eigen::ArrayXd::Map(values.data(), std::ssize(values)).log();
+  };
+  const Eigen::ArrayXd log_x = logarithms(x), off = log_x - log_x.mean();
+  return (off * logarithms(y)).sum() / off.square().sum();
 }
 
 }  // namespace rotor_stator::costs

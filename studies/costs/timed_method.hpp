@@ -44,7 +44,6 @@ struct Setting {
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
   bool is_ensemble() const { return method.ends_with("-lanes"); }
-  bool has_fixed_step() const;
 
   /** The time method: rk4 of rk4-lanes and shooting-rk4. */
   std::string stepper() const;
@@ -88,14 +87,12 @@ struct CpuTime {
   double median, least, most;
 };
 
-double thread_cpu_seconds();
 CpuTime time_of(int repetitions, const std::function<void()>& work);
 
 /** Operations of the last run. */
 struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
   long transforms = 0;       ///< Fourier transforms of one series
-  long transformed = 0;      ///< samples of all of them
   double force_seconds = 0;  ///< in the bearing's force, of a profiled aft run [s]
 };
 
@@ -107,8 +104,10 @@ public:
   }
   virtual ~TimedMethod() = default;
 
-  /** All the work anew, speed by speed, until `goes_on`, asked after each, says no. */
-  virtual void run(const std::function<bool(std::size_t speed)>& goes_on = {});
+  /** All the work anew: it begins, and solves one speed after the other. */
+  void run();
+  virtual void begin() = 0;
+  virtual void solve(std::size_t speed) = 0;
 
   /** Runs once and returns the CPU [s] of each speed. */
   virtual std::vector<double> seconds_by_speed();
@@ -119,9 +118,6 @@ public:
   virtual Counts counts() const { return counts_; }
 
 protected:
-  virtual void begin() = 0;
-  virtual void solve(std::size_t speed) = 0;
-
   /** Of the time method at a speed. */
   std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
@@ -140,14 +136,11 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
 struct Measurement : CpuTime, Counts, MotionError {
   Schedule schedule;
   int repetitions;
-  std::vector<double> seconds = {};      ///< of a single run, at each speed
+  std::vector<double> seconds = {};      ///< at each speed, where it is run once
   std::vector<MotionError> errors = {};  ///< at each speed
 };
 
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions);
-
-/** The same of one run, with the CPU of each speed. */
-Measurement tried_once(const References& sweep, const Schedule& schedule);
 
 /** The largest error over the speeds, as far as it is not above `bound`: the run ends at
     the first speed that is. */

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "balance/bearing_problem.hpp"
-#include "balance/newton.hpp"
+#include "balance/find.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "time/shooting.hpp"
@@ -39,48 +38,46 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
   const motion::Motion fine =
       motion::one_period(parameters, omega, truth.state,
                          {.intervals_per_period = 2 * harmonics + 2, .tolerance = 1e-12});
-  Balance balance(bearing_problem(parameters, default_samples(harmonics)), harmonics);
   const PeriodicMotion solution =
-      solve(balance, omega, motion::relative_series(parameters, fine, harmonics),
-            {.tolerance = 1e-11});
+      find_from({.parameters = parameters,
+                 .omega = omega,
+                 .harmonics = harmonics,
+                 .newton = {.tolerance = 1e-11}},
+                "shooting", motion::relative_series(parameters, fine, harmonics));
   if (!solution.found())
     throw NoSolution(format("no balance of %d harmonics at %g Hz: %s", harmonics,
                             truth.frequency, solution.newton.reason().c_str()));
-  return motion::relative_difference(motion::motion_of(body_series(parameters, solution),
-                                                       truth.motion.points_per_period),
-                                     truth.motion);
+  return motion::relative_difference(
+      motion::motion_of(solution.bodies, truth.motion.points_per_period), truth.motion);
 }
 
 References true_motions(const Parameters& parameters,
                         const std::vector<double>& frequencies,
                         const TruthSettings& settings)
 {
-  const auto truths = computed_in_parallel(
-      "references", frequencies.size(),
-      [&](std::size_t k) { return true_motion(parameters, frequencies[k], settings); });
-  References references{{parameters, frequencies}, {}};
-  for (const TrueMotion& truth : truths) {
-    references.motions.emplace_back();
-    if (!truth.periodic) continue;
-    references.motions.back() = truth.motion;
-    references.spread = std::max(references.spread, truth.spread);
-    references.periodicity_residual =
-        std::max(references.periodicity_residual, truth.periodicity_residual);
-  }
-  return references;
+  return {{parameters, frequencies},
+          computed_in_parallel("references", frequencies.size(), [&](std::size_t k) {
+            return true_motion(parameters, frequencies[k], settings);
+          })};
 }
 
 void References::describe(Table& table, const TruthSettings& settings) const
 {
+  double spread = 0, periodicity_residual = 0;
+  std::vector<Cell> others;
+  for (const TrueMotion& truth : truths)
+    if (truth.periodic) {
+      spread = std::max(spread, truth.spread);
+      periodicity_residual = std::max(periodicity_residual, truth.periodicity_residual);
+    } else {
+      others.emplace_back(truth.frequency);
+    }
   table.note(
       format("reference: shooting by rk8, tolerance %g, closure below %.2g, "
              "from time integration by %s with Poincare spread below %.2g",
              settings.tolerance, periodicity_residual,
              settings.settling.stepper.method.c_str(), spread));
-  std::vector<Cell> list;
-  for (std::size_t k = 0; k < frequencies.size(); ++k)
-    if (!motions[k]) list.emplace_back(frequencies[k]);
-  table.row_line("not_periodic", list);
+  table.row_line("not_periodic", others);
   table.note(
       "not_periodic: speeds [Hz] without a T-periodic motion, which have no reference");
 }
@@ -95,23 +92,20 @@ void MotionError::include(const MotionError& other)
   mean = std::max(mean, other.mean);
 }
 
-MotionError error_of(const Parameters& parameters, double frequency,
-                     const std::optional<motion::Motion>& motion,
-                     const motion::Motion& truth)
+MotionError error_of(const Parameters& parameters,
+                     const std::optional<motion::Motion>& motion, const TrueMotion& truth)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  /** Infinite where there is no motion, or one that has diverged. */
-  const auto error = [&](auto of) {
-    const double value = motion ? of(*motion) : infinity;
-    return std::isfinite(value) ? value : infinity;
+  if (!motion) return {infinity, infinity, infinity, truth.frequency};
+  /** Of a motion that has diverged it may be no number. */
+  const auto known = [&](double error) {
+    return std::isfinite(error) ? error : infinity;
   };
-  return {.displacement =
-              error([&](auto& one) { return motion::relative_difference(one, truth); }),
-          .force = error([&](auto& one) {
-            return motion::relative_force_difference(parameters, one, truth);
-          }),
-          .mean = error([&](auto& one) { return motion::rms_difference(one, truth); }),
-          .worst_frequency = frequency};
+  return {.displacement = known(motion::relative_difference(*motion, truth.motion)),
+          .force =
+              known(motion::relative_force_difference(parameters, *motion, truth.motion)),
+          .mean = known(motion::rms_difference(*motion, truth.motion)),
+          .worst_frequency = truth.frequency};
 }
 
 }  // namespace rotor_stator::costs

@@ -54,9 +54,7 @@ struct Task {
 
 /** The speeds of a sweep with their true motions. */
 struct References : Task {
-  std::vector<std::optional<motion::Motion>>
-      motions;  ///< none where the motion has not the period T
-  double spread = 0, periodicity_residual = 0;  ///< largest of the others [-]
+  std::vector<TrueMotion> truths;  ///< at each speed
 
   /** In a header: how the motions were found, and where there is none. */
   void describe(Table& table, const TruthSettings& settings) const;
@@ -76,8 +74,8 @@ struct MotionError {
   void include(const MotionError& other);
 };
 
-MotionError error_of(const Parameters& parameters, double frequency,
+MotionError error_of(const Parameters& parameters,
                      const std::optional<motion::Motion>& motion,
-                     const motion::Motion& truth);
+                     const TrueMotion& truth);
 
 }  // namespace rotor_stator::costs

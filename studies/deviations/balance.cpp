@@ -20,7 +20,8 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
 {
   const int m = scene.harmonics;
   PeriodicMotion solution = scene.solution(frequency);
-  PlainBalance balance(scene.machine, angular(frequency), m, default_samples(m), first);
+  const PlainBalance balance(scene.machine, angular(frequency), m, default_samples(m),
+                             first);
   Eigen::VectorXd x = solution.bodies.reshaped();  // in the order of PlainBalance
   for (int k = 0; balance.residual(x).norm() > 1e-10 * balance.load().norm(); ++k) {
     if (k == 40)
@@ -39,8 +40,8 @@ EvidenceList printed_newton_step(const DeviationScene& scene)
   const double start_speed = table.number("start_speed_hz", Range::positive);
   const Eigen::VectorXd truth = scene.solution(scene.speed).bodies.reshaped();
   const Eigen::VectorXd start = scene.solution(start_speed).bodies.reshaped();
-  PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
-                       default_samples(scene.harmonics));
+  const PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
+                             default_samples(scene.harmonics));
   const auto residual = [&](const Eigen::VectorXd& x) {
     return balance.residual(x).norm() / balance.load().norm();
   };
@@ -96,8 +97,8 @@ EvidenceList criteria_without_scale(const DeviationScene& scene)
       scene.table("newton").number("start_speed_hz", Range::positive);
   const Eigen::VectorXd truth = scene.solution(scene.speed).bodies.reshaped();
   Eigen::VectorXd x = scene.solution(start_speed).bodies.reshaped();
-  PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
-                       default_samples(scene.harmonics));
+  const PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
+                             default_samples(scene.harmonics));
   const Eigen::VectorXd step = balance.corrected_step(x);
   x += step;
   const double penetration = scales(scene.machine).penetration;

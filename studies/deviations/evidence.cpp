@@ -36,22 +36,6 @@ PeriodicMotion require_periodic(const Parameters& machine, double frequency,
   return solution;
 }
 
-PeriodicMotion DeviationScene::solution(double frequency) const
-{
-  return require_periodic(machine, frequency, harmonics);
-}
-
-motion::Motion DeviationScene::motion_of(const PeriodicMotion& solution) const
-{
-  return motion::motion_of(solution.bodies,
-                           time_integration.stepper.intervals_per_period);
-}
-
-motion::Motion DeviationScene::motion_of(const SteadyState& steady) const
-{
-  return motion::motion_of(steady, time_integration.stepper.intervals_per_period);
-}
-
 motion::Motion DeviationScene::integrated(double frequency) const
 {
   const SteadyState steady = settled(machine, frequency);

@@ -24,6 +24,12 @@ struct Evidence {
 };
 using EvidenceList = std::vector<Evidence>;
 
+/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
+    NoSolution if there is none. */
+PeriodicMotion require_periodic(const Parameters& machine, double frequency,
+                                int harmonics, int samples = 0,
+                                const NewtonSettings& settings = {});
+
 struct DeviationScene {
   StrictToml toml;
   Parameters machine;         ///< exchanged reading
@@ -51,11 +57,22 @@ struct DeviationScene {
   }
 
   /** The periodic solution of the exchanged reading with m harmonics. */
-  PeriodicMotion solution(double frequency) const;
+  PeriodicMotion solution(double frequency) const
+  {
+    return require_periodic(machine, frequency, harmonics);
+  }
+
+  int points() const { return time_integration.stepper.intervals_per_period; }  ///< P
 
   /** One period of a solution, and the periods that an integration shows. */
-  motion::Motion motion_of(const PeriodicMotion& solution) const;
-  motion::Motion motion_of(const SteadyState& steady) const;
+  motion::Motion motion_of(const PeriodicMotion& solution) const
+  {
+    return motion::motion_of(solution.bodies, points());
+  }
+  motion::Motion motion_of(const SteadyState& steady) const
+  {
+    return motion::motion_of(steady, points());
+  }
 
   /** The steady state of a machine, and the motion on which the exchanged reading
       settles. The latter throws NoSolution if it is not T-periodic. */
@@ -67,12 +84,6 @@ struct DeviationScene {
 };
 
 DeviationScene read_deviation_scene(SceneFile& file);
-
-/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
-    NoSolution if there is none. */
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples = 0,
-                                const NewtonSettings& settings = {});
 
 inline void add(EvidenceList& list, const EvidenceList& more)
 {
@@ -96,34 +107,23 @@ EvidenceList contact_of(const std::string& key, const std::string& meaning,
 /**
 ## The entries */
 
-// The model (§2 and Table 1): contact, readings, masses.
-EvidenceList sign_of_approach(const DeviationScene& scene);   // D-01
-EvidenceList radius_of_hertz(const DeviationScene& scene);    // D-07
-EvidenceList unit_of_stiffness(const DeviationScene& scene);  // D-08
-EvidenceList two_readings(const DeviationScene& scene);       // D-09
-EvidenceList unprinted_masses(const DeviationScene& scene);   // D-13
+using Entry = EvidenceList(const DeviationScene& scene);
 
-// The balance (§3.1): the blocks of Eq. 11, Newton's step and criteria, Γ, the samples.
-EvidenceList names_of_gamma(const DeviationScene& scene);          // D-04
-EvidenceList samples_as_printed(const DeviationScene& scene);      // D-05
-EvidenceList printed_newton_step(const DeviationScene& scene);     // D-06
-EvidenceList printed_block(const DeviationScene& scene);           // D-12
-EvidenceList default_sample_count(const DeviationScene& scene);    // D-14
-EvidenceList parentheses_of_gamma(const DeviationScene& scene);    // D-21
-EvidenceList criteria_without_scale(const DeviationScene& scene);  // D-22
+// The model (§2 and Table 1): contact, readings, masses; D-01, 07, 08, 09 and 13.
+Entry sign_of_approach, radius_of_hertz, unit_of_stiffness, two_readings,
+    unprinted_masses;
 
-// Continuation (§3.2): predictor, arc length, tolerance, step, cost.
-EvidenceList printed_predictor(const DeviationScene& scene);   // D-02
-EvidenceList arc_length_scaling(const DeviationScene& scene);  // D-03
-EvidenceList tolerance_and_step(const DeviationScene& scene);  // D-15
-EvidenceList unit_of_cpu(const DeviationScene& scene);         // D-18
+// The balance (§3.1): Γ, samples, Newton's step and criteria, blocks of Eq. 11, our N;
+// D-04, 05, 06, 12, 14, 21 and 22.
+Entry names_of_gamma, samples_as_printed, printed_newton_step, printed_block,
+    default_sample_count, parentheses_of_gamma, criteria_without_scale;
 
-// The motions (§3.3): amplitudes, cage, time integration, figures.
-EvidenceList amplitude_definitions(const DeviationScene& scene);  // D-10
-EvidenceList cage_and_period(const DeviationScene& scene);        // D-11
-EvidenceList runge_kutta_settings(const DeviationScene& scene);   // D-16
-EvidenceList speeds_of_panels(const DeviationScene& scene);       // D-17
-EvidenceList kind_of_figures(const DeviationScene& scene);        // D-19
-EvidenceList passages_over_2t(const DeviationScene& scene);       // D-20
+// Continuation (§3.2): predictor, arc length, tolerance, step, cost; D-02, 03, 15 and 18.
+Entry printed_predictor, arc_length_scaling, tolerance_and_step, unit_of_cpu;
+
+// The motions (§3.3): amplitudes, cage, time integration, figures; D-10, 11, 16, 17, 19
+// and 20.
+Entry amplitude_definitions, cage_and_period, runge_kutta_settings, speeds_of_panels,
+    kind_of_figures, passages_over_2t;
 
 }  // namespace rotor_stator::deviations

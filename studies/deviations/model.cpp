@@ -9,6 +9,7 @@ Contact, readings, masses. */
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "model/hertz.hpp"
+#include "time/settle.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -42,7 +43,10 @@ double joint_resonance_hz(Parameters machine, double stator_mass, double rotor_m
 EvidenceList sign_of_approach(const DeviationScene& scene)
 {
   const StaticContact contact = static_contact(scene.machine);
-  const double growth = free_mode_rates(scene.machine, -contact.stiffness).front();
+  const auto growth = [&](double stiffness) {
+    return free_modes(scene.machine, stiffness).real().maxCoeff();
+  };
+  const double printed = growth(-contact.stiffness);
   const double sag = std::abs(free_displacement(scene.machine, 0, 0).y);
   return {{"D-01.stiffness_ours", contact.stiffness, "N/m",
            "slope of the bearing's force along the static contact, Eq. 4 corrected"},
@@ -50,11 +54,11 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
            "the same at the same penetration, Eq. 4 as printed"},
           {"D-01.suspension", scene.machine.stator.stiffness(), "N/m",
            "stiffness of the stiffer suspension"},
-          {"D-01.growth_printed", growth, "1/s",
+          {"D-01.growth_printed", printed, "1/s",
            "growth rate of both bodies linearised about that contact, as printed"},
-          {"D-01.growth_ours", free_mode_rates(scene.machine, contact.stiffness).front(),
-           "1/s", "the same with Eq. 4 corrected; negative: it decays"},
-          {"D-01.doubling_printed", std::numbers::ln2 / growth, "s",
+          {"D-01.growth_ours", growth(contact.stiffness), "1/s",
+           "the same with Eq. 4 corrected; negative: it decays"},
+          {"D-01.doubling_printed", std::numbers::ln2 / printed, "s",
            "time in which a disturbance doubles, as printed"},
           {"D-01.sag", sag, "m",
            "distance by which the rotor sags below the stator without contact"},

@@ -13,6 +13,7 @@ Amplitudes, cage, time integration, figures. */
 #include "motion/contact.hpp"
 #include "motion/regime.hpp"
 #include "time/flow.hpp"
+#include "time/settle.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -36,10 +37,7 @@ EvidenceList amplitude_definitions(const DeviationScene& scene)
     for (int row : {2, 3}) {
       const double half = half_peak_to_peak(series)[row];
       const double largest =
-          sample_series(series, scene.time_integration.stepper.intervals_per_period)
-              .col(row)
-              .cwiseAbs()
-              .maxCoeff();
+          sample_series(series, scene.points()).col(row).cwiseAbs().maxCoeff();
       const double rms = series.row(row).tail(series.cols() - 1).norm();  // times √2
       const std::string key = format("_%s_%s", row == 2 ? "x_r" : "y_r", name);
       add(list, {{"D-10.half" + key, half, "m", "half peak-to-peak"},
@@ -79,15 +77,16 @@ EvidenceList cage_and_period(const DeviationScene& scene)
 EvidenceList runge_kutta_settings(const DeviationScene& scene)
 {
   const motion::Motion truth = scene.integrated(scene.speed);
-  const double stiffness = static_contact(scene.machine).stiffness;
+  const auto decay = [&](double stiffness) {
+    return -free_modes(scene.machine, stiffness).real().maxCoeff();
+  };
   EvidenceList list{
       {"D-16.speed", scene.speed, "Hz", "speed of the errors"},
       {"D-16.default_step", default_step(scene.machine), "s",
        "our step where none is asked"},
-      {"D-16.decay_joined", -free_mode_rates(scene.machine, stiffness).front(), "1/s",
+      {"D-16.decay_joined", decay(static_contact(scene.machine).stiffness), "1/s",
        "slowest decay of both bodies in contact, linearised"},
-      {"D-16.decay_apart", -free_mode_rates(scene.machine, 0).front(), "1/s",
-       "slowest decay without contact"}};
+      {"D-16.decay_apart", decay(0), "1/s", "slowest decay without contact"}};
   const auto steps = scene.table("rk4").numbers("steps_s", Range::positive);
   SteadySettings settings = scene.time_integration;
   settings.stepper.method = "rk4";

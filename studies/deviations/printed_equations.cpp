@@ -1,12 +1,8 @@
 #include "deviations/printed_equations.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "io/errors.hpp"
-#include "time/eigenvalues.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -58,7 +54,7 @@ PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four)
 
 PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmonics,
                            int samples, FirstEntry first)
-    : harmonics_(harmonics), samples_(samples), bearing_(parameters.bearing),
+    : bearing_(parameters.bearing),
       gamma_(gamma_matrix(harmonics, samples, Argument::parenthesised)),
       inverse_(gamma_inverse(harmonics, samples))
 {
@@ -72,10 +68,10 @@ PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmo
   const Eigen::Matrix4d mass = diagonal(s.mass, r.mass);
   const Eigen::Matrix4d damping = diagonal(s.damping(), r.damping());
   const Eigen::Matrix4d stiffness = diagonal(s.stiffness(), r.stiffness());
-  const int size = dofs * (2 * harmonics_ + 1);
+  const int size = dofs * (2 * harmonics + 1);
   linear_ = Eigen::MatrixXd::Zero(size, size);
   linear_.topLeftCorner<dofs, dofs>() = stiffness;
-  for (int j = 1; j <= harmonics_; ++j) {
+  for (int j = 1; j <= harmonics; ++j) {
     const int cosine = (2 * j - 1) * dofs, sine = cosine + dofs;
     const double frequency = j * omega;
     const double printed = first == FirstEntry::printed ? omega : frequency;
@@ -92,79 +88,45 @@ PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmo
   load_[2 * dofs + 3] = unbalance;  // y_r, sine
 }
 
-const Eigen::VectorXd& PlainBalance::residual(const Eigen::VectorXd& x)
+PlainBalance::Linearised PlainBalance::at(const Eigen::VectorXd& x) const
 {
-  const int coefficients = 2 * harmonics_ + 1;
-  const Eigen::MatrixXd samples = x.reshaped(dofs, coefficients) * inverse_.transpose();
-  Eigen::MatrixXd force(dofs, samples_);
-  jacobian_ = linear_;
-  for (int k = 0; k < samples_; ++k) {
-    const auto [f, s] = bearing_.reaction(
-        cage_[k], {samples(2, k) - samples(0, k), samples(3, k) - samples(1, k)});
-    force.col(k) << -f.x, -f.y, f.x, f.y;
-    Eigen::Matrix4d slope;
-    slope << s.xx, s.xy, -s.xx, -s.xy, s.xy, s.yy, -s.xy, -s.yy, -s.xx, -s.xy, s.xx, s.xy,
-        -s.xy, -s.yy, s.xy, s.yy;
-    for (int p = 0; p < coefficients; ++p)
-      for (int q = 0; q < coefficients; ++q)
-        jacobian_.block<dofs, dofs>(dofs * p, dofs * q) +=
+  Eigen::Matrix<double, 2, dofs> joint;  // u = x_r - x_s; its force acts on both bodies
+  joint << -1, 0, 1, 0, 0, -1, 0, 1;
+  const Eigen::MatrixXd samples = x.reshaped(dofs, gamma_.rows()) * inverse_.transpose();
+  Eigen::MatrixXd force(dofs, gamma_.cols()), jacobian = linear_;
+  for (Eigen::Index k = 0; k < gamma_.cols(); ++k) {
+    const Eigen::Vector2d u = joint * samples.col(k);
+    const auto [f, s] = bearing_.reaction(cage_[k], {u.x(), u.y()});
+    force.col(k) = joint.transpose() * Eigen::Vector2d(f.x, f.y);
+    const Eigen::Matrix2d stiffness{{s.xx, s.xy}, {s.xy, s.yy}};
+    const Eigen::Matrix4d slope = joint.transpose() * stiffness * joint;
+    for (Eigen::Index p = 0; p < gamma_.rows(); ++p)
+      for (Eigen::Index q = 0; q < gamma_.rows(); ++q)
+        jacobian.block<dofs, dofs>(dofs * p, dofs * q) +=
             gamma_(p, k) * inverse_(k, q) * slope;
   }
   const Eigen::MatrixXd force_series = force * gamma_.transpose();
-  residual_ = linear_ * x + force_series.reshaped() - load_;
-  return residual_;
+  return {linear_ * x + force_series.reshaped() - load_, jacobian};
 }
 
-const Eigen::MatrixXd& PlainBalance::jacobian(const Eigen::VectorXd& x)
+Eigen::VectorXd PlainBalance::corrected_step(const Eigen::VectorXd& x) const
 {
-  residual(x);
-  return jacobian_;
+  const auto [residual, jacobian] = at(x);
+  return -jacobian.partialPivLu().solve(residual);
 }
 
-Eigen::VectorXd PlainBalance::corrected_step(const Eigen::VectorXd& x)
+Eigen::VectorXd PlainBalance::printed_step(const Eigen::VectorXd& x) const
 {
-  residual(x);
-  return -jacobian_.partialPivLu().solve(residual_);
-}
-
-Eigen::VectorXd PlainBalance::printed_step(const Eigen::VectorXd& x)
-{
-  residual(x);
-  const Eigen::VectorXd right = residual_ - linear_ * x + jacobian_ * x;
-  return -jacobian_.partialPivLu().solve(right);
+  const auto [residual, jacobian] = at(x);
+  const Eigen::VectorXd right = residual - linear_ * x + jacobian * x;
+  return -jacobian.partialPivLu().solve(right);
 }
 
 StaticContact static_contact(const Parameters& parameters)
 {
-  const double compliance =
-      1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
-  const double sag = free_displacement(parameters, 0, 0).y;
-  const BallBearing bearing(parameters.bearing);
-  double u =
-      quasi_static_contact(parameters.bearing, rigid_joint_force(parameters, 0, 0)).y;
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const auto [force, slope] = bearing.reaction({1, 0}, {0, u});
-    const double step = (sag - u - compliance * force.y) / (1 + compliance * slope.yy);
-    u += step;
-    if (std::abs(step) <= 1e-14 * std::abs(u)) return {u, force.y, slope.yy};
-  }
-  throw NoSolution(format("%s: no static contact found", parameters.file.c_str()));
-}
-
-std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness)
-{
-  const Body &s = parameters.stator, &r = parameters.rotor;
-  const double k = joint_stiffness;
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-  matrix.topRightCorner<2, 2>().setIdentity();
-  matrix.bottomLeftCorner<2, 2>() << -(s.stiffness() + k) / s.mass, k / s.mass,
-      k / r.mass, -(r.stiffness() + k) / r.mass;
-  matrix(2, 2) = -s.damping() / s.mass;
-  matrix(3, 3) = -r.damping() / r.mass;
-  const Eigen::VectorXd real = eigenvalues(matrix).real();
-  std::vector<double> rates(real.begin(), real.end());
-  std::sort(rates.rbegin(), rates.rend());
-  return rates;
+  const Vec2 u = parameters.bodies->at_rest(parameters, {1, 0}).position.relative();
+  const auto [force, slope] = BallBearing(parameters.bearing).reaction({1, 0}, u);
+  return {u.y, force.y, slope.yy};
 }
 
 }  // namespace rotor_stator::deviations

@@ -44,25 +44,26 @@ public:
   PlainBalance(const Parameters& parameters, double omega, int harmonics, int samples,
                FirstEntry first = FirstEntry::corrected);
 
-  /** Eq. 16: R = AX + F_NL - F [N]. */
-  const Eigen::VectorXd& residual(const Eigen::VectorXd& x);
-
-  /** A + J [N/m]. */
-  const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x);
+  /** At X [m]: R = AX + F_NL - F [N] of Eq. 16, and A + J [N/m]. */
+  struct Linearised {
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd jacobian;
+  };
+  Linearised at(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd residual(const Eigen::VectorXd& x) const { return at(x).residual; }
 
   /** ΔX [m] from X: Eq. 15 as printed, at Δω = 0, and as it follows from Eq. 10 (D-06).
    */
-  Eigen::VectorXd printed_step(const Eigen::VectorXd& x);
-  Eigen::VectorXd corrected_step(const Eigen::VectorXd& x);
+  Eigen::VectorXd printed_step(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd corrected_step(const Eigen::VectorXd& x) const;
 
   const Eigen::VectorXd& load() const { return load_; }  ///< F [N]
 
 private:
-  int harmonics_, samples_;
   BallBearing bearing_;
   std::vector<Direction> cage_;  ///< at each sample
-  Eigen::MatrixXd gamma_, inverse_, linear_, jacobian_;
-  Eigen::VectorXd load_, residual_;
+  Eigen::MatrixXd gamma_, inverse_, linear_;
+  Eigen::VectorXd load_;
 };
 
 /** The motion with K_H [N/m^{3/2}] and gravity alone at rest (cage angle 0). */
@@ -72,9 +73,5 @@ struct StaticContact {
   double stiffness;     ///< ∂F_y/∂u_y with Eq. 4 as corrected [N/m]
 };
 StaticContact static_contact(const Parameters& parameters);
-
-/** Rates [1/s] of the four free modes of both bodies joined in one direction by a linear
-    stiffness [N/m], largest real part first; a positive one grows. */
-std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness);
 
 }  // namespace rotor_stator::deviations

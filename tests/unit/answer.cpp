@@ -29,7 +29,10 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
   CHECK(answer.kind() == Kind::periodic);
   CHECK(answer.period() == 1);
   CHECK(answer.stability == "stable");
-  const motion::Observation seen = observe(answer);
+  const motion::Question question{.parameters = parameters,
+                                  .request = {.omega = hertz(30)}};
+  const motion::Observation seen =
+      motion::observed_answers({&question, 1}).front().seen.get();
   CHECK(seen.amplitude[2] == Approx(expected).epsilon(1e-7));
   CHECK(seen.rms[3] == Approx(expected / std::sqrt(2)).epsilon(1e-5));
   CHECK(answer.multiplier ==

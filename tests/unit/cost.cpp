@@ -1,7 +1,6 @@
 /** What the tables of cost rest on: references, counted operations, fits, and the rivals themselves. No
     time is asserted. */
 #include "costs/equal_error.hpp"
-#include "costs/timing.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -68,7 +67,6 @@ TEST_CASE("Harmonic balance: N of the setting, three transforms or more per eval
   const long evaluations = counts.force_instants / setting.sample_count();
   CHECK(evaluations <= 12);
   CHECK(counts.transforms >= 3 * evaluations);
-  CHECK(counts.transformed == counts.transforms * setting.sample_count());
 }
 
 namespace {
@@ -150,17 +148,10 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
 
 TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
 {
-  TimingScene scene{.parameters = set_1(),
-                    .frequencies = {40, 41},
-                    .balances = {},
-                    .paper_cpu = {1, 1},
-                    .rk4 = {},
-                    .repetitions = 1,
-                    .truth = truth_settings};
+  std::vector<Setting> rk4;
   for (double step : {1e-3, 4e-4, 2e-4, 1e-4, 5e-5})
-    scene.rk4.push_back({.method = "rk4", .step = step, .transient = 2, .recorded = 90});
-  const References references =
-      true_motions(scene.parameters, scene.frequencies, scene.truth);
+    rk4.push_back({.method = "rk4", .step = step, .transient = 2, .recorded = 90});
+  const References references = true_motions(set_1(), {40, 41}, truth_settings);
   const Setting six{.method = "aft",
                     .harmonics = 6,
                     .samples = 32,
@@ -169,13 +160,13 @@ TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
   const Measurement balance = measure(references, six, 1);
   CHECK(balance.displacement > 1e-6);
   CHECK(balance.force_instants % 32 == 0);
-  const Setting chosen = cheapest_rk4(scene, references, balance);
-  for (const Setting& setting : scene.rk4) {
+  const Setting chosen = cheapest_rk4(rk4, references, balance);
+  for (const Setting& setting : rk4) {
     const double error = measure(references, setting, 1).displacement;
     CHECK((error <= balance.displacement) == (setting.step <= chosen.step));
   }
-  scene.rk4.resize(1);
-  CHECK_THROWS_AS(cheapest_rk4(scene, references, balance), NoSolution);
+  rk4.resize(1);
+  CHECK_THROWS_AS(cheapest_rk4(rk4, references, balance), NoSolution);
 }
 
 TEST_CASE("The exponent of a power law is found, through scatter too")
