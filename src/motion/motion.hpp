@@ -57,8 +57,8 @@ inline Motion recorded(Flow& stepper, int points_per_period, State& state,
 double vibrations_of(const Parameters& parameters, double omega);
 
 /** Instants in a base period that resolve the motion: 256 to 4096 in a turn, twelve in
-    such a vibration, so that no peak is missed by more than 4 %, and by a thousandth where
-    a parabola is laid through it. */
+    such a vibration. No peak is missed by more than 4 % then, or a thousandth where a
+    parabola is laid through it. */
 int instants_of(const Parameters& parameters, double omega);
 
 /** x_s, y_s, x_r, y_r [m] at the instants of a motion, a row each. */
