@@ -69,17 +69,23 @@ Designation read_designation(StrictToml& table)
     refuse("an angular contact ball bearing", "balls, diameters and contact_angle_deg");
   Designation found{prefix + basic, "", part[1]};
   const std::string tail = part[4];
-  static const std::regex word("[A-Z0-9+]+", std::regex::icase);
-  /** Perhaps behind a code of seals, as in ZZC3. */
+  static const std::regex word("HC[0-9]?|[A-Z0-9]+", std::regex::icase);
+  /** Perhaps behind a code of seals, as in ZZC3; HC5 are ceramic balls. */
   static const std::regex clearance(
-      "([A-Z0-9]*[A-Z])?[Cc]([02345Nn])(?:[A-Z].*)?|P[56]([2-5])");
+      "(?!HC)([A-Z0-9]*[A-Z])?[Cc]([02345Nn])(?:[A-Z].*)?|P[56]([2-5])"),
+      no_class("[Cc][1-9][0-9]*");
   for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
     const std::string code = at->str();
     std::string other = code;
     if (std::regex_match(code, part, clearance)) {
       const std::string name = part[2].str() + part[3].str();
+      if (!found.clearance.empty())
+        table.fail(designation_key, "\"" + text + "\" names two classes of clearance");
       found.clearance = name == "0" || name == "n" ? "CN" : "C" + name;
       other = part[1];
+    } else if (std::regex_match(code, no_class)) {
+      table.fail(designation_key, "\"" + text + "\": " + code +
+                                      " is no class of clearance: C2, CN, C3, C4, C5");
     }
     if (other.empty()) continue;
     found.unused +=

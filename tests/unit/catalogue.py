@@ -137,10 +137,10 @@ class Catalogue(Case):
         """Maker, seals, cage and grease change nothing and are named; a class of clearance is that of the key."""
         keys = ["balls", "contact_stiffness", "clearance", "cage_speed_ratio"]
         expected = self.header(C3, *keys)
-        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63", "6205/C3H", "6205-C3E", "6205.2ZR.C3"]:
+        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63", "6205/C3H", "6205-C3E", "6205.2ZR.C3", "6205/HC5C3", "6205+C3"]:
             with self.subTest(text):
                 self.assertEqual(self.header(f'designation = "{text}"', *keys), expected)
-        for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ"), ("6205ZZC3", "ZZ"), ("6205 LLUC3", "LLU")]:
+        for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ"), ("6205ZZC3", "ZZ"), ("6205 LLUC3", "LLU"), ("6205/HC5", "HC5"), ("6205-C-2HRS", "C 2HRS")]:
             with self.subTest(text):
                 self.assertIn(f"bearing data of Case Western Reserve University; not used: {unused}", self.checked(C3.replace("6205", text)).header)
         own = self.header('designation = "6201-2Z"\ninternal_clearance = "C0"', *keys)
@@ -156,6 +156,8 @@ class Catalogue(Case):
         for bearing, words in [
                 (C3.replace("6205", "6205 C4"), 'internal_clearance "C3" contradicts C4 of designation'),
                 (C3.replace("6205", "6205DDUC4"), 'internal_clearance "C3" contradicts C4 of designation'),
+                ('designation = "6205 C3/C4"', "names two classes of clearance"),
+                ('designation = "6205/C6"', "C6 is no class of clearance"),
                 (C3.replace("6205", "NU205"), "is a cylindrical roller bearing"),
                 (C3.replace("6205", "7205 BECBP"), "is an angular contact ball bearing"),
                 (C3.replace("6205", "62051"), "is not in the catalogue"),
