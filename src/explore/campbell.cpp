@@ -111,7 +111,13 @@ Exploration explore_campbell(const CampbellRequest& request)
           if ((a > 0) == (b > 0)) continue;
           const double at =
               critical_speed(linear, value, i, speeds[k - 1], speeds[k], a, b);
-          const Mode mode = linear.modes(at, i + 1)[i];
+          const auto there = linear.modes(at, i + 1);
+          /** None where mode i ends, or another one takes its place. */
+          constexpr double meets = 1e-3;
+          if (there.size() <= i ||
+              std::abs(there[i].frequency - value * at) > meets * value * at)
+            continue;
+          const Mode& mode = there[i];
           if (request.critical)
             table.row({at, name, i + 1, mode.frequency, mode.damping, word(mode.whirl)});
           else

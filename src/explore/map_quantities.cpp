@@ -297,8 +297,9 @@ const std::vector<Quantity> quantities{
     {"mean", "m", "mean of y_r over the period", Source::motion, &MapPoint::mean},
     {"contact_share", "-", "share of the time with at least one loaded ball",
      Source::motion, &MapPoint::contact_share},
-    {"ball_load", "N", "largest force on a ball", Source::motion, &MapPoint::ball_load},
-    {"force", "N", "largest force of the bearing, Eq. 6", Source::motion,
+    {"ball_load", "N", "largest force on a ball of the first bearing", Source::motion,
+     &MapPoint::ball_load},
+    {"force", "N", "largest force of the first bearing, Eq. 6", Source::motion,
      &MapPoint::force},
     {"stability", "word",
      "of the motion, or of that of Eq. 7 found from the solution: stable, unstable, "

@@ -96,9 +96,12 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
         (omega_.array() > 0).select(omega_.array().inverse(), 0.0).matrix().asDiagonal();
   a.bottomRightCorner(n, n) = -shapes_.transpose() * c * shapes_;
   const Eigensystem found = eigensystem(a, true);
+  constexpr double most_damped = 0.95;
   std::vector<Eigen::Index> order;
   for (Eigen::Index k = 0; k < 2 * n; ++k)
-    if (found.values[k].imag() > 1e-6) order.push_back(k);
+    if (const auto at = found.values[k];
+        at.imag() > 1e-6 && std::abs(at.real()) < most_damped * std::abs(at))
+      order.push_back(k);
   std::ranges::sort(order, {}, [&](auto k) { return found.values[k].imag(); });
   order.resize(std::min(order.size(), most));
   std::vector<Mode> list;

@@ -41,8 +41,9 @@ public:
   /** S, 2b × 2b [N/m]. */
   const Eigen::MatrixXd& contact() const { return contact_; }
 
-  /** The oscillating modes at a speed [Hz] of lowest frequency, ascending, at most so
-      many. Throws NoSolution where the budget does not pay for them. */
+  /** The modes at a speed [Hz] that oscillate, with less than 0.95 of the critical
+      damping, of lowest frequency, ascending, at most so many. Throws NoSolution where the
+      budget does not pay for them. */
   std::vector<Mode> modes(double speed, std::size_t most) const;
 
 private:

@@ -26,7 +26,7 @@ const ResponseFields contact_fields{
     {"amp_F_x", "N", "half peak-to-peak of F_x", [](auto& r) { return r.force.x; }},
     {"amp_F_y", "N", "half peak-to-peak of F_y", [](auto& r) { return r.force.y; }},
     {"contact_share", "-", "share of the time with a loaded ball", &Row::contact_share},
-    {"ball_load", "N", "largest force of a ball", &Row::ball_load}};
+    {"ball_load", "N", "largest force of a ball of the first bearing", &Row::ball_load}};
 
 /** The row of the displacement whose harmonics are asked for. Throws BadInput. */
 Eigen::Index displacement_row(const ResponseRequest& request)

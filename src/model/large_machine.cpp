@@ -170,6 +170,25 @@ Eigen::VectorXd MatrixMachine::state_scales(const Parameters& parameters) const
   return sizes;
 }
 
+double quickest_contact(const Parameters& parameters)
+{
+  const auto* large = dynamic_cast<const MatrixMachine*>(parameters.bodies.get());
+  if (large == nullptr) return contact_frequency(parameters);
+  const Eigen::MatrixXd& mass = large->bodies().mass;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(mass);
+  double most = 0;
+  for (std::size_t b = 0; b < joints_of(parameters).size(); ++b)
+    for (const int axis : {0, 1}) {
+      const auto places = large->places(b);
+      Eigen::VectorXd apart = Eigen::VectorXd::Zero(mass.rows());
+      if (const int rotor = places[2 + axis]; rotor >= 0) apart[rotor] += 1;
+      if (const int stator = places[axis]; stator >= 0 && !parameters.stator.rigid)
+        apart[stator] -= 1;
+      most = std::max(most, apart.dot(factors.solve(apart)));
+    }
+  return std::sqrt(scales(parameters).stiffness * most);
+}
+
 void LargeMachine::describe(Table& table, const Parameters&) const
 {
   table.detail(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",

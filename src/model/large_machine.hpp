@@ -65,6 +65,10 @@ struct LargeBodies {
                                      double speed) const;
 };
 
+/** The highest frequency of a contact [rad/s]: on bodies by matrices that of the mass
+    which moves with a joint at once, 1/(dᵀ M⁻¹ d); of two masses `contact_frequency`. */
+double quickest_contact(const Parameters& parameters);
+
 /** The joints' forces [N] that would keep all u = 0 under the constant loads, 2b, and
     their amplitudes from the unbalance at the speed ω. */
 struct JointForces {

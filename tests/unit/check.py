@@ -94,6 +94,33 @@ radial_clearance_um = -1.5
         self.assertEqual(words(heavy + NAMED, "--from", 1, "--to", 5), "")
         self.assertIn("times the clearance", words(heavy + NAMED))
 
+    def test_critical_speeds_are_crossings(self):
+        """A seal overdamps the first mode from some speed on: nothing resonates where it ends."""
+        self.file("seal.csv", "f,k_xx,k_xy,k_yx,k_yy,c_xx,c_xy,c_yx,c_yy\n60,0,0,0,0,10,0,0,10\n100,0,0,0,0,10000,0,0,10\n")
+        own = self.file("own.toml", """title = "a seal"
+[stator]
+rigid = true
+[rotor]
+mass_kg = 5
+natural_frequency_Hz = 30
+damping_ratio = 0.02
+unbalance_kg_m = 1e-5
+[rotor.ground]
+coefficients = "seal.csv"
+[bearing]
+balls = 8
+contact_stiffness_N_per_m1p5 = 1e8
+radial_clearance_m = 1e-5
+cage_speed_ratio = 0.4
+[gravity]
+acceleration_m_per_s2 = 9.81
+""")
+        result = self.run_explore("campbell", own, "--from", 5, "--to", 200, "--count", 40, "--critical")
+        found = Table.of(result.stdout)
+        order = np.where(found["line"] == "1X", 1, 3.2)
+        self.assertEqual(len(found), 4)
+        np.testing.assert_allclose(found["frequency"], order * found["f"], rtol=1e-6)
+
     def test_warnings(self):
         """Each where it holds, one on data set 1: its centre of mass lies 1.25 mm away, 62.5 times the clearance."""
         far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
