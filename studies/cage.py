@@ -106,7 +106,7 @@ def page(table):
             lines.append(f"| {claim} | {meaning} | {number:g} | {quantity(rows.where('c', 0.5)):.3g} | "
                          f"{span([quantity(rows.where('c', c)) for c in ratios])} |")
     lines += ["", "C2, C3 and C9 count harmonics of one frequency, C10 counts balls over two turns: without a whole number of "
-              "passages they mean nothing. C6 and C8 were not computed and were not computed.", "",
+              "passages they mean nothing. C6 and C8 were not computed.", "",
               "## Solutions of harmonic balance", "",
               "| data set | c | speeds with a solution [%] | stable [%] |", "|---|---|---|---|"]
     for number in np.unique(table["set"]):
