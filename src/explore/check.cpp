@@ -76,11 +76,11 @@ bool never_touches(const CheckRequest& request, const Parameters& machine)
 /** Where two masses that stay in contact resonate. */
 std::string words_of_joint(const Parameters& machine)
 {
-  const Body &s = machine.stator, &r = machine.rotor;
-  const double omega = std::sqrt((s.stiffness() + r.stiffness()) / (s.mass + r.mass));
-  const bool is_pair = machine.bodies->takes_explicit_steps() && !s.rigid && !r.rigid &&
-                       machine.grounds.empty();
-  return is_pair ? format("; of both masses in contact it is %.4g Hz", omega / turn) : "";
+  const bool is_pair = machine.bodies->takes_explicit_steps() && !machine.stator.rigid &&
+                       !machine.rotor.rigid && machine.grounds.empty();
+  return is_pair ? format("; of both masses in contact it is %.4g Hz",
+                          joint_resonance(machine) / turn)
+                 : "";
 }
 
 }  // namespace
@@ -133,25 +133,24 @@ Exploration explore_check(const CheckRequest& request)
       add("speed_value" + tail, n, "mm/min", "n d_m " + at_end);
   }
   const auto is_loaded = [](const Rest& rest) { return rest.loaded > 0; };
-  if (machine.gravity > 0 && std::ranges::none_of(rests, is_loaded))
-    warn("no ball is loaded at rest: do the loads lift the rotor?");
-  else if (std::ranges::none_of(rests, is_loaded))
-    warn("no ball is loaded at rest: frequencies are those without contact" +
-         words_of_joint(machine));
+  if (std::ranges::none_of(rests, is_loaded))
+    warn("no ball is loaded at rest: " +
+         (machine.gravity > 0
+              ? "do the loads lift the rotor?"
+              : "frequencies are those without contact" + words_of_joint(machine)));
   const bool is_large = !machine.bodies->takes_explicit_steps();
   if (!is_large) {
     const double omega = angular(request.to),
-                 e = printable_size(machine.unbalance / machine.rotor.mass);
+                 e = printable_size(machine.unbalance / machine.rotor.mass),
+                 thrown = machine.unbalance * omega * omega;
     add("eccentricity", e, "m", "e, unbalance over the rotor's mass");
     add("weight", printable_size(machine.rotor.mass * machine.gravity), "N",
         "of the rotor");
-    add("unbalance_force", printable_size(machine.unbalance * omega * omega), "N",
-        at_end);
+    add("unbalance_force", printable_size(thrown), "N", at_end);
     add("balance_grade", printable_size(1e3 * e * omega), "mm/s",
         "e omega " + at_end + ", the G of ISO 21940-11");
-    const bool is_thrown = machine.unbalance * omega * omega > rests.front().force;
     if (const double gap = machine.bearing.clearance;
-        gap > 0 && e > 10 * gap && is_thrown)
+        gap > 0 && e > 10 * gap && thrown > rests.front().force)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
   }

@@ -10,7 +10,6 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {
 
@@ -203,8 +202,9 @@ Recording recording_for_rates(const Parameters& machine, double omega, int point
   constexpr int least_periods = 16;
   const auto numbers =
       8 + static_cast<double>(machine.bodies->state_scales(machine).size());
-  const double needed = each * std::max(motion::vibrations_of(machine, omega),
-                                        quickest_contact(machine) / omega);
+  const double needed =
+      each * std::max(motion::vibrations_of(machine, omega),
+                      machine.bodies->quickest_contact(machine) / omega);
   while (points < needed && 2 * points * numbers * least_periods <= most) points *= 2;
   return {points, std::clamp(static_cast<int>(most / numbers / points), least_periods,
                              Measures::open_periods)};

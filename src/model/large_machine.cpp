@@ -170,19 +170,16 @@ Eigen::VectorXd MatrixMachine::state_scales(const Parameters& parameters) const
   return sizes;
 }
 
-double quickest_contact(const Parameters& parameters)
+double MatrixMachine::quickest_contact(const Parameters& parameters) const
 {
-  const auto* large = dynamic_cast<const MatrixMachine*>(parameters.bodies.get());
-  if (large == nullptr) return contact_frequency(parameters);
-  const Eigen::MatrixXd& mass = large->bodies().mass;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(mass);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bodies_.mass);
   double most = 0;
   for (std::size_t b = 0; b < joints_of(parameters).size(); ++b)
     for (const int axis : {0, 1}) {
-      const auto places = large->places(b);
-      Eigen::VectorXd apart = Eigen::VectorXd::Zero(mass.rows());
-      if (const int rotor = places[2 + axis]; rotor >= 0) apart[rotor] += 1;
-      if (const int stator = places[axis]; stator >= 0 && !parameters.stator.rigid)
+      const auto& at = bodies_.places[b];
+      Eigen::VectorXd apart = Eigen::VectorXd::Zero(bodies_.mass.rows());
+      if (const int rotor = at[2 + axis]; rotor >= 0) apart[rotor] += 1;
+      if (const int stator = at[axis]; stator >= 0 && !parameters.stator.rigid)
         apart[stator] -= 1;
       most = std::max(most, apart.dot(factors.solve(apart)));
     }

@@ -65,10 +65,6 @@ struct LargeBodies {
                                      double speed) const;
 };
 
-/** The highest frequency of a contact [rad/s]: on bodies by matrices that of the mass
-    which moves with a joint at once, 1/(dᵀ M⁻¹ d); of two masses `contact_frequency`. */
-double quickest_contact(const Parameters& parameters);
-
 /** The joints' forces [N] that would keep all u = 0 under the constant loads, 2b, and
     their amplitudes from the unbalance at the speed ω. */
 struct JointForces {
@@ -102,6 +98,8 @@ public:
   State at_rest(const Parameters& parameters, Direction cage) const override;
   State static_start(const Parameters& parameters) const override;
   Eigen::VectorXd state_scales(const Parameters& parameters) const override;
+  /** Of the mass that moves with a joint at once, 1/(dᵀ M⁻¹ d). */
+  double quickest_contact(const Parameters& parameters) const override;
 
   void put_equations(const Parameters& parameters, const TorusLine& line,
                      Problem& problem) const override;

@@ -57,6 +57,9 @@ public:
   /** Sizes of the components of a state, for tolerances and norms. */
   virtual Eigen::VectorXd state_scales(const Parameters& parameters) const;
 
+  /** The highest frequency of a contact [rad/s]. */
+  virtual double quickest_contact(const Parameters& parameters) const;
+
   /**
   ## In time (time/flow.cpp) */
 

@@ -110,6 +110,11 @@ State state_of(const Eigen::VectorXd& y)
   return state;
 }
 
+double Machine::quickest_contact(const Parameters& parameters) const
+{
+  return contact_frequency(parameters);
+}
+
 Eigen::VectorXd Machine::state_scales(const Parameters& parameters) const
 {
   const double length = scales(parameters).length;

@@ -46,8 +46,10 @@ double largest_ball_load(const Parameters& parameters, const Motion& motion)
   const auto top =
       std::ranges::max_element(loads, {}, [](auto& at) { return std::ranges::max(at); });
   const auto ball = std::ranges::max_element(*top) - top->begin();
-  if (top == loads.begin() || top + 1 == loads.end()) return (*top)[ball];
-  return vertex((*(top - 1))[ball], (*top)[ball], (*(top + 1))[ball]).height;
+  Eigen::VectorXd along(std::ssize(loads));
+  std::transform(loads.begin(), loads.end(), along.begin(),
+                 [ball](auto& at) { return at[ball]; });
+  return largest_of(along, false);
 }
 
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
