@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <numbers>
+#include <cmath>
 #include <random>
 
 #include "explore/measures.hpp"
@@ -21,9 +21,8 @@ namespace {
 
 constexpr int section_points = 200;  // of a motion that does not close
 constexpr int most_runs = 200000;    // each keeps its state and statistics
-constexpr int motion_points = 256, motion_periods = 16;  // of --motions
-constexpr double same_closed = 1e-5,
-                 same_open = 0.1;  // of equal motions, over the scatter
+constexpr int motion_points = 256, motion_periods = 16;                 // of --motions
+constexpr double same_closed = 1e-5, same_open = 0.1, same_errors = 4;  // `is_same`
 
 /** The request, checked, with the machine that belongs to it. */
 struct Task {
@@ -87,8 +86,8 @@ State random_state(const Based& at, std::uint64_t seed)
 
 Two chains carry the state on from speed to speed; each speed has its own starts beside
 them. They are integrated side by side, each as far as the whole budget would pay for it
-alone. What they cost is then added up in their order, and what goes beyond the budget is
-lost, so that the table does not depend on the number of threads. */
+alone; what they cost is added up in their order, so that the table does not depend on the
+number of threads. */
 
 const char* const out_of_budget = "the budget is used up, more with --budget";
 
@@ -211,26 +210,29 @@ struct Found {
   Exponent exponent() const  ///< over a base period
   {
     const auto [rate, error] = answer.settled.lyapunov;
-    const double omega = answer.omega;
-    return {rate * 2 * std::numbers::pi / omega, error * 2 * std::numbers::pi / omega};
+    const double period = angular(1) / answer.omega;
+    return {rate * period, error * period};
   }
 };
 
 /** Whether two motions of one speed are on one attractor: both close after as many
     periods or neither does, two kinds do not contradict each other, and means and
-    scatters agree over the largest scatter. At rest all do. */
+    scatters agree over the largest scatter or within their errors. At rest all do. */
 template <class One>
 bool is_same(const One& a, const Found& b)
 {
   const Kind kind = a.answer.kind(), other = b.answer.kind();
   if (kind == Kind::rest && other == Kind::rest) return true;
-  if (a.answer.period() != b.answer.period()) return false;
-  if (kind != Kind::undecided && other != Kind::undecided && kind != other) return false;
+  const bool differ = kind != other && std::min(kind, other) != Kind::undecided;
+  if (differ || a.answer.period() != b.answer.period()) return false;
+  const motion::Observation &p = a.seen, &q = b.seen;
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    apart = std::max({apart, std::abs(a.seen.mean[i] - b.seen.mean[i]),
-                      std::abs(a.seen.rms[i] - b.seen.rms[i])});
-    size = std::max({size, a.seen.rms[i], b.seen.rms[i]});
+    const double mean_error = std::hypot(p.mean_error[i], q.mean_error[i]);
+    const double rms_error = std::hypot(p.rms_error[i], q.rms_error[i]);
+    apart = std::max({apart, std::abs(p.mean[i] - q.mean[i]) - same_errors * mean_error,
+                      std::abs(p.rms[i] - q.rms[i]) - same_errors * rms_error});
+    size = std::max({size, p.rms[i], q.rms[i]});
   }
   return apart <= size * (a.answer.period() > 0 ? same_closed : same_open);
 }
@@ -283,8 +285,8 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   return all;
 }
 
-/** Those that are different, numbered: starts may end in several phases of one motion,
-    apart by errors of integration until shooting has closed them. */
+/** Those that are different, numbered: the phases of one motion are apart by errors of
+    integration until shooting has closed them. */
 std::vector<Found> merged(std::vector<Found> all)
 {
   std::vector<Found> kept;
@@ -412,7 +414,7 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
   table.note(format("periods: K of a motion that closes, %d of another", motion_periods));
   for (const Found& found : all) {
     const motion::Motion& motion = found.answer.motion;
-    const std::vector<Vec2> forces = motion::bearing_forces(found.answer.machine, motion);
+    const auto forces = motion::bearing_forces(found.answer.machine, motion);
     const int periods =
         found.is_closed() ? std::max(1, found.answer.period()) : motion_periods;
     const auto rows = std::min<std::size_t>(motion.size(), periods * motion_points);
@@ -444,16 +446,15 @@ void note(Table& table, const Task& task)
       "starts: at each speed from rest, from the motion at the speed below, from that at "
       "the speed above, and from random states");
   table.note(
-      "period: K up to 16 where the section closes; 0 where neighbours part, the "
-      "exponent less 3 errors positive; -1 where they neither part nor come nearer, or "
-      "come nearer and two frequencies drive; -2 undecided");
+      "period: K up to 16 where the section closes; 0 where neighbours part; -1 where they "
+      "do not, or come nearer while two frequencies drive; -2 undecided");
   table.note(
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "
       "growth of a neighbour's distance, mean over the starts");
   table.note(format(
-      "same motion: means and scatters within %g of the largest scatter if closed, %g "
-      "else",
-      same_closed, same_open));
+      "same motion: means and scatters within %g of the largest scatter if closed, else "
+      "within %g and %g standard errors",
+      same_closed, same_open, same_errors));
 }
 
 /** What is missing and why; empty when nothing is. */
@@ -489,8 +490,7 @@ Exploration explore_attractors(const AttractorsRequest& request)
   const bool touches = std::ranges::any_of(all, &Found::touches);
   if (touches || missing.empty()) put_contact(table, task.machine, touches);
   put_cost(table, task.budget);
-  const std::string section =
-      request.section || request.plot ? section_text(task, all) : "";
+  const auto section = request.section || request.plot ? section_text(task, all) : "";
   std::vector<NamedContent> files;
   if (request.section) files.push_back({*request.section, section});
   if (request.motions) files.push_back({*request.motions, motion_text(task, all)});

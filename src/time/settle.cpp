@@ -239,6 +239,7 @@ Settled Settling::seen() const
             .seconds = pair_.seconds()};
   s.doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
   const double rate = s.lyapunov.value, doubt = s.doubt;
+  const bool is_long = s.seconds > rule_.longest / 2;
   s.contracts = rate + doubt < 0;
   if (is_at_rest()) {
     s.kind = Kind::rest;
@@ -248,12 +249,12 @@ Settled Settling::seen() const
   if (s.at.period < 0) return s;
   if (!(0.5 * s.seconds >= least_ * (1 - 1e-9)))
     s.reason = format("%.3g s are too short to tell", s.seconds);
-  else if (rate - doubt > 0 && grows_throughout())
+  else if (rate > (is_long ? 1 : 2) * doubt && grows_throughout())
     s.kind = Kind::chaotic;
   else if (base_.is_driven_twice() && s.contracts)
     s.kind = pair_.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
   else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 &&
-           s.seconds > rule_.longest / 2)
+           is_long)
     s.kind = Kind::quasi_periodic;
   if (s.kind != Kind::undecided || !s.reason.empty()) return s;
   if (s.contracts && pair_.contraction() <= forgotten)
