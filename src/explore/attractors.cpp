@@ -252,9 +252,10 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     if (!task.request.motions) request.points = 4;
   }
   if (!measures.empty()) {
-    const motion::Answer whole = whole_motion(found.answer, request, budget);
-    const double step = angular(1) / (whole.omega * whole.motion.points_per_period);
-    found.measured = measures.of({whole.motion, step, found.speed, closes(whole)});
+    const motion::Answer all = whole_motion(found.answer, request, budget);
+    const double step = angular(1) / (all.omega * all.motion.points_per_period);
+    found.measured =
+        measures.of({all.machine, all.motion, step, found.speed, closes(all)});
   }
   complete(found.answer, request, budget);
   if (found.answer.method == "shooting") {
@@ -268,9 +269,7 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     that are not. */
 std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run> runs)
 {
-  const auto is_decided = [](const Run& run) {
-    return run.answer.kind() != Kind::undecided;
-  };
+  const auto is_decided = [](auto& run) { return run.answer.kind() != Kind::undecided; };
   std::ranges::stable_sort(runs, {}, &Run::origin);
   std::ranges::stable_partition(runs, is_decided);
   std::vector<Found> all;
@@ -446,8 +445,8 @@ void note(Table& table, const Task& task)
       "starts: at each speed from rest, from the motion at the speed below, from that at "
       "the speed above, and from random states");
   table.note(
-      "period: K up to 16 where the section closes; 0 where neighbours part; -1 where they "
-      "do not, or come nearer while two frequencies drive; -2 undecided");
+      "period: K up to 16 where the section closes; 0 where neighbours part; -1 where "
+      "they do not, or come nearer while two frequencies drive; -2 undecided");
   table.note(
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "
       "growth of a neighbour's distance, mean over the starts");

@@ -174,9 +174,11 @@ public:
       return whole_motion(settled(), question().request, budget_);
     });
     const motion::Motion& record = whole ? whole->motion : motion();
+    const Parameters& machine = whole ? whole->machine : moving();
     const double omega = whole ? whole->omega : solution().omega;
     const double step = angular(1) / (omega * record.points_per_period);
-    return measures.of({record, step, frequency_, !whole || closes(*whole)}).at(0);
+    const bool is_closed = !whole || closes(*whole);
+    return measures.of({machine, record, step, frequency_, is_closed}).at(0);
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }

@@ -7,9 +7,11 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <tuple>
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "motion/contact.hpp"
 
 namespace rotor_stator::explore {
 
@@ -132,14 +134,87 @@ double value_of(const std::string& what, const Eigen::VectorXd& x, const Record&
   return 1e3 * rms_between(x, record, record.speed < slow ? 2 : 10, 1000);
 }
 
-/** A displacement, its velocity or acceleration at all instants. */
-Eigen::VectorXd samples_of(const Record& record, int place, int times)
+double largest_load(const Record& record, int bearing)
 {
-  Eigen::VectorXd x(std::ssize(record.motion.positions));
-  for (std::size_t k = 0; k < record.motion.size(); ++k)
-    x[static_cast<Eigen::Index>(k)] = motion::shown_at(record.motion, k, place);
-  for (int i = 0; i < times; ++i) x = rate_of(x, record.step, record.is_closed);
+  return motion::largest_ball_load(record.machine, record.motion, bearing);
+}
+
+/** At all instants. */
+Eigen::VectorXd samples_of(const Record& record, const Measure& one)
+{
+  using Of = Measure::Of;
+  const auto& [machine, motion, step, speed, is_closed] = record;
+  Eigen::VectorXd x(std::ssize(motion.positions));
+  if (one.of == Of::displacement) {
+    for (std::size_t k = 0; k < motion.size(); ++k)
+      x[static_cast<Eigen::Index>(k)] = motion::shown_at(motion, k, one.place);
+    for (int i = 0; i < one.rates; ++i) x = rate_of(x, step, is_closed);
+  } else if (one.of == Of::contact_share) {
+    x.setConstant(one.place < 0 ? motion::contact_share(machine, motion)
+                                : motion::contact_share(machine, motion, one.place));
+  } else if (one.of == Of::ball_load) {
+    x.setConstant(largest_load(record, one.place));
+  } else if (one.of == Of::stress) {
+    const double pressure = bearings_of(machine)[one.place].pressure;
+    x.setConstant(1e-6 * pressure * std::cbrt(largest_load(record, one.place)));
+  } else {
+    const auto forces = motion::bearing_forces(machine, motion, one.place);
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      x[static_cast<Eigen::Index>(k)] = one.of == Of::force_x ? forces[k].x : forces[k].y;
+  }
   return x;
+}
+
+/** All that a machine has. */
+std::vector<Measure> measures_of(const Parameters& machine)
+{
+  using Of = Measure::Of;
+  std::vector<std::pair<std::string, int>> places{
+      {"x_s", 0}, {"y_s", 1}, {"x_r", 2}, {"y_r", 3}};
+  for (const auto& output : machine.bodies->outputs()) places.push_back(output);
+  const std::vector<Bearing> bearings = bearings_of(machine);
+  const auto numbered = [](const char* name, int b) {
+    return name + (b == 0 ? "" : format("_%d", b + 1));
+  };
+  std::vector<Measure> all;
+  for (const What& what : whats) {
+    const std::string name = what.name, meaning = what.meaning;
+    const bool is_iso = name == "iso_";
+    for (const auto& [place, at] : places)
+      for (int k = 0; k < (is_iso ? 1 : std::ssize(rates)); ++k)
+        if (!name.empty() || k > 0)  // which orbit has, as it has the forces
+          all.push_back(
+              {{name + rates[k].name + place, *what.unit ? what.unit : rates[k].unit,
+                meaning + rates[k].meaning + place},
+               name,
+               Of::displacement,
+               at,
+               is_iso ? 1 : k});
+    for (int b = 0; b < std::ssize(bearings) && !name.empty() && !is_iso; ++b)
+      for (const Of axis : {Of::force_x, Of::force_y}) {
+        const std::string force = numbered(axis == Of::force_x ? "F_x" : "F_y", b);
+        all.push_back({{name + force, *what.unit ? what.unit : "N", meaning + force},
+                       name,
+                       axis,
+                       b});
+      }
+  }
+  const auto add = [&](const std::string& name, const char* unit, const char* meaning,
+                       Of of, int b) {
+    all.push_back({{name, unit, meaning}, "mean_", of, b});
+  };
+  add("contact_share", "-", "share of the time with a loaded ball", Of::contact_share,
+      -1);
+  for (int b = 0; b < std::ssize(bearings); ++b) {
+    add(format("contact_share_%d", b + 1), "-", "the same, of that bearing",
+        Of::contact_share, b);
+    add(numbered("ball_load", b), "N", "largest force of a ball of the bearing",
+        Of::ball_load, b);
+    if (bearings[b].pressure > 0)
+      add(numbered("stress", b), "N/mm^2", "largest pressure of Hertz in the bearing",
+          Of::stress, b);
+  }
+  return all;
 }
 
 }  // namespace
@@ -147,39 +222,31 @@ Eigen::VectorXd samples_of(const Record& record, int place, int times)
 Measures::Measures(const std::string& names, const Parameters& machine,
                    const std::vector<Column>& known)
 {
-  std::vector<std::pair<std::string, int>> places{
-      {"x_s", 0}, {"y_s", 1}, {"x_r", 2}, {"y_r", 3}};
-  for (const auto& output : machine.bodies->outputs()) places.push_back(output);
+  const std::vector<Measure> all = measures_of(machine);
   std::istringstream in(names);
   for (std::string name; std::getline(in, name, ',');) {
     if (std::ranges::find(known, name, &Column::name) != known.end()) continue;
-    for (const auto& [place, at] : places)
-      for (const What& what : whats)
-        for (int k = 0; k < std::ssize(rates); ++k) {
-          const bool is_iso = what.name == std::string("iso_");
-          if (is_iso && k > 0) continue;
-          if (std::string(what.name) + rates[k].name + place != name) continue;
-          if (*what.name == 0 && k == 0) continue;  // which orbit has
-          all_.push_back({what.name, is_iso ? 1 : k, at});
-          columns_.push_back({name, *what.unit ? what.unit : rates[k].unit,
-                              std::string(what.meaning) + rates[k].meaning + place});
-        }
+    const auto is_named = [&](const Measure& one) { return one.column.name == name; };
+    const auto found = std::ranges::find_if(all, is_named);
+    if (found == all.end()) continue;
+    all_.push_back(*found);
+    columns_.push_back(found->column);
   }
 }
 
 bool Measures::needs_whole() const
 {
-  return std::ranges::any_of(all_, [](const One& one) { return !one.what.empty(); });
+  return std::ranges::any_of(all_, [](const Measure& one) { return !one.what.empty(); });
 }
 
 std::vector<double> Measures::of(const Record& record) const
 {
-  std::map<std::pair<int, int>, Eigen::VectorXd> known;
+  std::map<std::tuple<Measure::Of, int, int>, Eigen::VectorXd> known;
   std::vector<double> values;
-  for (const auto& [what, times, place] : all_) {
-    auto& x = known[{place, times}];
-    if (x.size() == 0) x = samples_of(record, place, times);
-    values.push_back(value_of(what, x, record));
+  for (const Measure& one : all_) {
+    auto& x = known[{one.of, one.place, one.rates}];
+    if (x.size() == 0) x = samples_of(record, one);
+    values.push_back(value_of(one.what, x, record));
   }
   return values;
 }
@@ -187,9 +254,9 @@ std::vector<double> Measures::of(const Record& record) const
 std::vector<std::vector<double>> Measures::at_instants(const Record& record) const
 {
   std::vector<std::vector<double>> columns;
-  for (const auto& [what, times, place] : all_) {
-    Eigen::VectorXd x = samples_of(record, place, times);
-    if (!what.empty()) x.setConstant(value_of(what, x, record));
+  for (const Measure& one : all_) {
+    Eigen::VectorXd x = samples_of(record, one);
+    if (!one.what.empty()) x.setConstant(value_of(one.what, x, record));
     columns.emplace_back(x.begin(), x.end());
   }
   return columns;

@@ -6,7 +6,10 @@ x_r_out, of its velocity v_x_r and its acceleration a_x_r. WHAT is `amp` (half
 peak-to-peak), `peak` (the largest distance from the mean), `mean`, `rms` (about the
 mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso` (rms of the
 velocity in mm/s from 10 to 1000 Hz, below 600 turns a minute from 2 Hz, ISO 20816).
-Without WHAT the value at each instant.
+Without WHAT the value at each instant. The same, but no rates, of a bearing's force on the
+stator, F_x or F_x_2. Of each bearing also `ball_load` and `stress`, ball_load_2 of the
+second, and `contact_share`, which is of any one where there are several, contact_share_1
+of the first.
 
 All are taken from one record at equal instants, sixteen in its quickest vibration: K
 base periods of a motion that closes, 256 of another one (fewer where these would not fit
@@ -22,9 +25,10 @@ order 8.
 
 namespace rotor_stator::explore {
 
-/** A motion whose instants are `step` [s] apart, the rotor's speed [Hz], and whether it
-    goes on from its beginning. */
+/** A motion of a machine whose instants are `step` [s] apart, the rotor's speed [Hz], and
+    whether it goes on from its beginning. */
 struct Record {
+  const Parameters& machine;
   const motion::Motion& motion;
   double step, speed;
   bool is_closed;
@@ -37,6 +41,16 @@ struct Recording {
 
 /** P is `points` times a power of two. */
 Recording recording_for_rates(const Parameters& machine, double omega, int points);
+
+/** WHAT is taken of which displacement, as `shown_at` counts, or of which bearing; -1: of
+    any. What a bearing has once in a record is taken as its mean. */
+struct Measure {
+  enum class Of { displacement, force_x, force_y, contact_share, ball_load, stress };
+  Column column;
+  std::string what;
+  Of of;
+  int place, rates = 0;
+};
 
 class Measures {
 public:
@@ -58,11 +72,7 @@ public:
   std::vector<std::vector<double>> at_instants(const Record& record) const;
 
 private:
-  struct One {
-    std::string what;
-    int rates, place;
-  };
-  std::vector<One> all_;
+  std::vector<Measure> all_;
   std::vector<Column> columns_;
 };
 

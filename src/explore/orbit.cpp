@@ -353,7 +353,7 @@ Exploration explore_orbit(const MotionRequest& request)
   const bool closes = at.found.closes_after > 0 &&
                       (!is_periodic(request.method) || !base.is_driven_twice());
   const auto measured = measures.at_instants(
-      {motion,
+      {at.found.machine, motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
        request.frequency, closes});
   std::vector<std::vector<Vec2>> forces{at.forces};

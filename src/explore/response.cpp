@@ -111,7 +111,7 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   row.contact_share = motion::contact_share(parameters, motion);
   row.ball_load = motion::largest_ball_load(parameters, motion);
   const double step = angular(1) / (omega * motion.points_per_period);
-  row.measured = measures.of({motion, step, row.frequency, is_closed});
+  row.measured = measures.of({parameters, motion, step, row.frequency, is_closed});
 }
 
 ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,

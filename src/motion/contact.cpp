@@ -7,15 +7,27 @@
 
 namespace rotor_stator::motion {
 
+static double share_of_any(const std::vector<BearingInstants>& bearings,
+                           const Motion& motion)
+{
+  std::size_t loaded = 0;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    loaded += std::ranges::any_of(bearings, [k](auto& at) { return at.touches(k); });
+  return static_cast<double>(loaded) / static_cast<double>(motion.size());
+}
+
 double contact_share(const Parameters& parameters, const Motion& motion)
 {
   std::vector<BearingInstants> bearings;
   for (std::size_t b = 0; b <= parameters.further.size(); ++b)
     bearings.emplace_back(parameters, motion, b);
-  std::size_t loaded = 0;
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    loaded += std::ranges::any_of(bearings, [k](auto& at) { return at.touches(k); });
-  return static_cast<double>(loaded) / static_cast<double>(motion.size());
+  return share_of_any(bearings, motion);
+}
+
+double contact_share(const Parameters& parameters, const Motion& motion,
+                     std::size_t bearing)
+{
+  return share_of_any({BearingInstants(parameters, motion, bearing)}, motion);
 }
 
 bool touches(const Parameters& parameters, PeriodicMotion solution)
@@ -39,10 +51,11 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
   return evolution;
 }
 
-double largest_ball_load(const Parameters& parameters, const Motion& motion)
+double largest_ball_load(const Parameters& parameters, const Motion& motion,
+                         std::size_t bearing)
 {
   const auto periods = std::ssize(motion.positions) / motion.points_per_period;
-  const auto loads = contact_evolution(parameters, motion, periods).ball_force;
+  const auto loads = contact_evolution(parameters, motion, periods, bearing).ball_force;
   const auto top =
       std::ranges::max_element(loads, {}, [](auto& at) { return std::ranges::max(at); });
   const auto ball = std::ranges::max_element(*top) - top->begin();

@@ -10,8 +10,11 @@ periods are a convention. */
 
 namespace rotor_stator::motion {
 
-/** Share of the instants with at least one loaded ball, of any bearing [-]. */
+/** Share of the instants with at least one loaded ball, of any bearing; of one of them,
+    counted from 0 [-]. */
 double contact_share(const Parameters& parameters, const Motion& motion);
+double contact_share(const Parameters& parameters, const Motion& motion,
+                     std::size_t bearing);
 
 /** Whether any ball is loaded in a solution of harmonic balance. */
 bool touches(const Parameters& parameters, PeriodicMotion solution);
@@ -29,7 +32,8 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
 
 /** The largest force on a ball along a motion, where three instants of that ball lie on a
     parabola [N]. */
-double largest_ball_load(const Parameters& parameters, const Motion& motion);
+double largest_ball_load(const Parameters& parameters, const Motion& motion,
+                         std::size_t bearing = 0);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);

@@ -133,6 +133,20 @@ class Large(Case):
             for a, b in ((one, other), (other, one)):
                 second = {name: a[f"{name}_2"] for name in NAMES + FORCES}
                 self.same(second, b, 1e-6, NAMES, FORCES)
+        solution = ["--harmonics", 12, "--no-stability", "--points", 2048]
+        forces, balls = self.table("orbit", own, "--frequency", 40, *solution), self.table("contact", own, "--frequency", 40, *solution)
+        measured = [*self.measured_by_bearing("map", own, "--x", "frequency=40:40:1", "--harmonics", 12),
+                    *self.measured_by_bearing("response", own, "--from", 40, "--to", 40.2, "--harmonics", 12)]
+        for k, row in enumerate(measured):
+            of = balls["Q"][balls["bearing"] == 1 + k % 2].reshape(2 * 2048, -1)
+            right = [of.max(), (of > 0).any(1).mean(), *(np.ptp(forces[name + ["", "_2"][k % 2]]) / 2 for name in FORCES)]
+            np.testing.assert_allclose(row, right, rtol=5e-3)
+
+    def measured_by_bearing(self, command, own, *options):
+        """Of the first, then of the second: largest force of a ball, share of contact, amplitudes of the force."""
+        names = [[f"ball_load{tail}", f"contact_share_{b}", f"amp_F_x{tail}", f"amp_F_y{tail}"] for b, tail in [(1, ""), (2, "_2")]]
+        table = self.table(command, own, *options, {"map": "--quantity", "response": "--columns"}[command], ",".join(["f", *sum(names, [])][command == "map":]))
+        return [[table[name][0] for name in one] for one in names]
 
     def test_kinds_of_files(self):
         """A triangle that is read as the whole matrix, or one matrix transposed, would give other numbers."""
