@@ -1,7 +1,8 @@
-"""One motion of `explore orbit`: orbits of rotor, stator and relative motion, and the same in time with the force.
+"""One motion of `explore orbit`: orbits of rotor and stator, the relative motion in each bearing, and the same in time
+with the forces.
 
-Marks stand at each quarter turn of the first two, the filled one at phase 0; the circle is the clearance. In time each
-displacement is drawn about its mean, which stands in the legend.
+Marks stand at each quarter turn of the first two, the filled one at phase 0; the circles are the clearances. In time
+each displacement is drawn about its mean, which stands in the legend.
 Usage: /usr/bin/python3 figures/orbit.py TABLE.tsv OUTPUT.svg
 """
 
@@ -30,6 +31,18 @@ def draw_orbit(axes, x, y, quarter, colour, title):
     axes.set_xlabel("x [µm]")
 
 
+def draw_relative(axes, table, bearing, quarter, where):
+    """Rotor against stator, with the clearance where it is of that size."""
+    u, v = (1e6 * (table[f"{axis}_r{bearing}"] - table[f"{axis}_s{bearing}"]) for axis in "xy")
+    clearance = 1e6 * table.value(f"clearance{bearing}")
+    has_circle = 0 < clearance < 20 * np.hypot(u, v).max()
+    draw_orbit(axes, u, v, quarter, RELATIVE, f"rotor {where}")
+    if has_circle:
+        axes.set_title(f"rotor {where}\n(dashed: clearance {clearance:.4g} µm)")
+        angle = np.linspace(0, 2 * np.pi, 200)
+        axes.plot(clearance * np.cos(angle), clearance * np.sin(angle), "--", color="#404040", lw=1)
+
+
 def draw(table):
     figure = plt.figure(figsize=(10, 8.5), layout="constrained")
     above, below = figure.subfigures(2, 1, height_ratios=(4, 5))
@@ -37,25 +50,24 @@ def draw(table):
     per_turn = int(round(1 / phase[1])) if len(phase) > 1 else 1
     quarter = max(1, per_turn // 4)
     micro = {name: 1e6 * table[name] for name in ("x_s", "y_s", "x_r", "y_r")}
-    u, v = micro["x_r"] - micro["x_s"], micro["y_r"] - micro["y_s"]
     bodies = table.bodies()
-    *panels, right = above.subplots(1, 1 + len(bodies), squeeze=False)[0]
+    bearings = [""] + [f"_{k}" for k in range(2, 10) if f"F_x_{k}" in table.columns]
+    panels = above.subplots(1, len(bodies) + len(bearings), squeeze=False)[0]
     for axes, body, name, colour in zip(panels, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
         draw_orbit(axes, micro[f"x_{body}"], micro[f"y_{body}"], quarter, colour, name)
-    draw_orbit(right, u, v, quarter, RELATIVE, "rotor against stator")
+    for axes, bearing in zip(panels[len(bodies):], bearings):
+        where = f"in bearing {bearing[1:] or 1}" if len(bearings) > 1 else "against stator"
+        draw_relative(axes, table, bearing, quarter, where)
     panels[0].set_ylabel("y [µm]")
-    clearance = 1e6 * table.value("clearance")
-    if 0 < clearance < 20 * np.hypot(u, v).max():
-        angle = np.linspace(0, 2 * np.pi, 200)
-        right.plot(clearance * np.cos(angle), clearance * np.sin(angle), "--", color="#404040", lw=1)
-        right.set_title(f"rotor against stator\n(dashed: clearance {clearance:.4g} µm)")
     displacement, force = below.subplots(2, 1, sharex=True)
     for axis, line in (("x", "-"), ("y", "--")):
         for body, colour in zip(bodies, (ROTOR, STATOR)):
             values = micro[f"{axis}_{body}"]
             mean = f"{values.mean():.3g}".replace("-", "−")
             displacement.plot(phase, values - values.mean(), line, color=colour, label=f"${axis}_{body}$, mean {mean} µm")
-        force.plot(phase, table[f"F_{axis}"], line, color="#404040", label=f"$F_{axis}$")
+        for bearing, colour in zip(bearings, ("#404040", RELATIVE, "C4", "C5")):
+            force.plot(phase, table[f"F_{axis}{bearing}"], line, color=colour,
+                       label=f"$F_{axis}$" + (f" of bearing {bearing[1:]}" if bearing else ""))
     for axes in (displacement, force):
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
         axes.yaxis.set_major_locator(MaxNLocator(5))

@@ -144,8 +144,8 @@ struct Walk {
       stop(BranchEnd::work,
            format("the bound on work, %ld evaluations of the force", most_evaluations));
     else if (step < least_step)
-      stop(BranchEnd::step,
-           format("the step fell below %g (%s)", least_step, refusal.c_str()));
+      stop(BranchEnd::step, format("the step fell below %g", least_step) +
+                                (refusal.empty() ? "" : " (" + refusal + ")"));
     return done;
   }
 
