@@ -14,7 +14,7 @@ from claim_quantities import (LIMITS, LOW_TO, MIDDLE_TO, NOT_ENOUGH, RULES, forc
 from claim_ranges import Accepted
 from claim_score import in_words, stored
 from project import source_line
-from tables import Table
+from tables import Table, two_digits
 
 KEPT = Path("data/reference")
 MOST_HARMONICS = 16
@@ -301,9 +301,7 @@ def percent(errors):
     missed = errors.size - found.size
     if found.size == 0:
         return "unknown (no solution)"
-    largest = 100 * found.max()
-    words = f"{largest:.2g} %" if largest < 99.5 else f"{largest:.0f} %"
-    return words + (f" ({missed} speed{'s' if missed > 1 else ''} without solution)" if missed else "")
+    return f"{two_digits(100 * found.max())} %" + (f" ({missed} speed{'s' if missed > 1 else ''} without solution)" if missed else "")
 
 
 def strongest(rows, order, centre):

@@ -213,6 +213,11 @@ def written(value):
     return f"{value:.12g}" if isinstance(value, (int, float)) else value
 
 
+def two_digits(value):
+    """For a sentence: without a power of ten where the number is large."""
+    return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
+
+
 def print_columns(columns):
     """The lines that say what the columns are, (name, unit, meaning) each, and the row of names."""
     for name, unit, meaning in columns:

@@ -11,7 +11,7 @@ import map_scaling
 import numpy as np
 from claim_score import listed, stored
 from rotor_stator import run
-from tables import Table, cells_as_numbers
+from tables import Table, cells_as_numbers, two_digits
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
@@ -28,13 +28,13 @@ METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4",
 def times(seconds):
     """A CPU time in a unit that suits it."""
     unit, factor = ("s", 1) if seconds >= 1 else ("ms", 1e3) if seconds >= 1e-3 else ("µs", 1e6)
-    return f"{seconds * factor:.2g} {unit}" if seconds * factor < 99.5 else f"{seconds * factor:.0f} {unit}"
+    return f"{two_digits(seconds * factor)} {unit}"
 
 
 def power(error):
     """An error as 1 % or, where small, as a power of ten."""
     if error >= 1e-4:
-        return f"{100 * error:.2g} %"
+        return f"{two_digits(100 * error)} %"
     exponent = int(np.floor(np.log10(error)))
     return rf"${error / 10.0 ** exponent:.2g}\cdot 10^{{{exponent}}}$"
 
@@ -86,7 +86,7 @@ def timed(row):
     """Setting, CPU time and error of the force of a method, or that it does not reach the error."""
     if not len(row):
         return ["", "not reached", ""]
-    return [f"`{row.first('setting')}`", times(row.first("cpu_s")), f"{100 * row.first('error_force'):.2g} %"]
+    return [f"`{row.first('setting')}`", times(row.first("cpu_s")), f"{two_digits(100 * row.first('error_force'))} %"]
 
 
 def markdown(names, lines):

@@ -24,7 +24,7 @@ import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from rotor_stator import run  # noqa: E402
-from tables import Table, cells_as_numbers, print_columns, print_header  # noqa: E402
+from tables import Table, cells_as_numbers, print_columns, print_header, two_digits  # noqa: E402
 
 COLUMNS = [
     ("kind", "word", "threads: one map; weak: as many points for every thread; memory; shards: of Snakemake; or a map's name"),
@@ -185,8 +185,8 @@ def written(seconds):
     """With a unit that a person uses."""
     for unit, size in (("years", 3.156e7), ("days", 86400), ("hours", 3600), ("minutes", 60)):
         if seconds >= size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{two_digits(seconds / size)} {unit}"
+    return f"{two_digits(seconds)} s"
 
 
 def on_paper(costs, tables, per_shard, files_of_a_shard):

@@ -351,7 +351,7 @@ constexpr auto from =
 const Fields usual_fields =
     Fields{{"f", "Hz", "speed of rotation", &Found::speed},
            {"motion", "-", "number of the motion at this speed", &Found::number},
-           {"period", "-", "K base periods; 0 aperiodic, -1 quasi-periodic, -2 undecided",
+           {"period", "-", "K base periods; 0 chaotic, -1 quasi-periodic, -2 undecided",
             [](auto& f) { return f.answer.period_number(); }},
            {"starts", "-", "how many ended there", &Found::starts},
            {"lyapunov", "1/base period", "largest Lyapunov exponent",
@@ -451,8 +451,8 @@ void note(Table& table, const Task& task)
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "
       "growth of a neighbour's distance, mean over the starts");
   table.note(format(
-      "same motion: means and scatters within %g of the largest scatter if closed, else "
-      "within %g and %g standard errors",
+      "same motion: means and rms within %g of the largest rms if closed, else within %g "
+      "of it plus %g standard errors",
       same_closed, same_open, same_errors));
 }
 

@@ -360,7 +360,7 @@ Quantity named(const std::string& name, const std::function<Parameters()>& machi
   if (const auto found = std::ranges::find(quantities, name, &Quantity::name);
       found != quantities.end())
     return *found;
-  if (const Measures one(name, machine()); one.needs_whole())
+  if (const Measures one(name, machine()); !one.empty())
     return {one.columns()[0], Source::motion,
             [name](MapPoint& p) { return p.measured(name); }};
   std::vector<std::string> known;

@@ -220,7 +220,7 @@ std::vector<Measure> measures_of(const Parameters& machine)
 }  // namespace
 
 Measures::Measures(const std::string& names, const Parameters& machine,
-                   const std::vector<Column>& known)
+                   const std::vector<Column>& known, bool at_instants)
 {
   const std::vector<Measure> all = measures_of(machine);
   std::istringstream in(names);
@@ -228,7 +228,7 @@ Measures::Measures(const std::string& names, const Parameters& machine,
     if (std::ranges::find(known, name, &Column::name) != known.end()) continue;
     const auto is_named = [&](const Measure& one) { return one.column.name == name; };
     const auto found = std::ranges::find_if(all, is_named);
-    if (found == all.end()) continue;
+    if (found == all.end() || (found->what.empty() && !at_instants)) continue;
     all_.push_back(*found);
     columns_.push_back(found->column);
   }

@@ -57,9 +57,9 @@ public:
   static constexpr int open_periods = 256;
 
   /** Those among names separated by commas that are measures of the machine, and of which
-      there is no column yet. */
+      there is no column yet; of the whole motion, and with `at_instants` the others. */
   Measures(const std::string& names, const Parameters& machine,
-           const std::vector<Column>& known = {});
+           const std::vector<Column>& known = {}, bool at_instants = false);
 
   bool empty() const { return columns_.empty(); }
   const std::vector<Column>& columns() const { return columns_; }

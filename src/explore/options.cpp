@@ -13,7 +13,6 @@ namespace rotor_stator::explore {
 namespace {
 
 using Options = std::vector<CLI::Option*>;
-
 constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
 constexpr double largest = 1e300;  // 2 pi times as much is still a number
 
@@ -43,8 +42,7 @@ bool is_given(const CLI::Option* option)
   return option->count() > 0;
 }
 
-/** Throws BadInput for options that were given and are not `used` by the method; `where`
-    they are. */
+/** Throws BadInput for given options not `used` by the method; `where` they are. */
 void refuse(const Options& options, bool used, const char* where,
             const std::string& method)
 {
@@ -59,7 +57,8 @@ void refuse(const Options& options, bool used, const char* where,
 
 const std::string measures_in_words =
     "; of a motion amp_, peak_, mean_, rms_, amp_1X_ or phase_1X_ of x_s ... y_r, x_r_2, "
-    "x_r_out, of a velocity v_x_r or acceleration a_x_r; iso_x_r, mm/s rms of ISO 20816";
+    "x_r_out, a velocity v_x_r, an acceleration a_x_r, a force F_x, F_x_2; iso_x_r, mm/s "
+    "rms of ISO 20816; of a bearing ball_load, stress, contact_share_1, ball_load_2";
 
 /** A file to be read. */
 template <class Name>
@@ -199,8 +198,8 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
 
 const char* const usual_budget =
     "in the whole run, other work counted as the evaluations that take as long (default: "
-    "those of 3 s, 8.2e7 with 16 balls; in response 60 s with --stability, 30 s with "
-    "--subharmonic or two frequencies)";
+    "those of 10 s, 2.7e8 with 16 balls, for a motion in time, in response for each; of "
+    "3 s for aft and shooting, up to 60 s for a branch)";
 
 /** Options of a motion in time. */
 template <class Asked>
@@ -454,6 +453,8 @@ Check add_options(CLI::App& command, CheckRequest& request)
   request.from = 1;
   request.to = 60;
   add_speeds(command, request, false, false);
+  command.get_option("--to")->description(
+      "last speed [Hz], or as 1500rpm (60); balance grade and warnings are of it");
   return [] {};
 }
 

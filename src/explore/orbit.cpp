@@ -330,7 +330,7 @@ Exploration explore_orbit(const MotionRequest& request)
     columns.push_back({name, "m", "of a body given by matrices"});
   const std::size_t usual = columns.size();
   columns.push_back(time_column);
-  const Measures measures(request.columns, parameters);
+  const Measures measures(request.columns, parameters, {}, true);
   columns.insert(columns.end(), measures.columns().begin(), measures.columns().end());
   Table table(request.periods == 1
                   ? "Orbit of rotor and stator over one period"

@@ -32,6 +32,17 @@ bool is_same(const struct stat& a, const struct stat& b)
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
+/** How the files of an option begin. */
+constexpr std::pair<const char*, const char*> beginnings[] = {
+    {"--plot", "<?xml"},
+    {"--plot", "\x89PNG"},
+    {"--plot", "%PDF"},
+    {"--to", "%%MatrixMarket"},
+    {"--save", "# Branch of harmonic balance\n"},
+    {"--waterfall", "# Lines of "},
+    {"--section", "# Poincare sections "},
+    {"--motions", "# Motions on the attractors\n"}};
+
 /** Whether this program wrote a file of the kind that an option asks for. */
 bool is_own(const std::string& file, const std::string& option)
 {
@@ -41,12 +52,11 @@ bool is_own(const std::string& file, const std::string& option)
   const auto begun = static_cast<std::size_t>(in.gcount());
   in.clear();
   if (begun == 2000 && in.seekg(-2000, std::ios::end)) in.read(&ends[2000], 2000);
-  const auto begins = [&](const char* mark) { return ends.starts_with(mark); };
-  const bool is_of_kind = option == "--to" ? begins("%%MatrixMarket")
-                          : option == "--plot"
-                              ? begins("<?xml") || begins("\x89PNG") || begins("%PDF")
-                              : begins("# ");
-  const char* const writer = begins("# ") ? "\n# source: rotor_stator" : "rotor_stator";
+  const bool is_of_kind = std::ranges::any_of(beginnings, [&](const auto& kind) {
+    return kind.first == option && ends.starts_with(kind.second);
+  });
+  const bool is_table = ends.starts_with("# ");
+  const char* const writer = is_table ? "\n# source: rotor_stator" : "rotor_stator";
   return is_of_kind && ends.find(writer) != ends.npos;
 }
 
@@ -136,7 +146,7 @@ void require_writable(const std::string& option, const std::string& file,
   if (is_forced) return;
   if (access(file.c_str(), W_OK) != 0) refuse("is write-protected; --force replaces it");
   if (known.st_size > 0 && !is_own(file, option))
-    refuse("is no file that this program wrote; --force replaces it");
+    refuse("is no file of " + option + " that this program wrote; --force replaces it");
 }
 
 void write_files(const std::vector<NamedContent>& files)

@@ -17,8 +17,8 @@ section decide the kind of the motion, the first of these that holds:
 - `undecided`: everything else, with the reason.
 
 λ comes with its standard error s, from ten batches of the later half of all that was
-integrated; d is 3s plus the error of λ by the step. The last two kinds are decided
-after 4 to 50 s at the earliest.
+integrated; d is 3s plus the error of λ by the step. `chaotic` and `quasi-periodic` are
+decided after 4 to 50 s at the earliest.
 
 Integration starts at or before t = 0. It ends before t = 0 only if neighbours have
 converged by 1e-9 and the motion is at rest or closes; a periodic motion then begins at

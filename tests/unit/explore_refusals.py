@@ -13,7 +13,8 @@ from pathlib import Path
 from tests.support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case
 
 
-OWN = "# Old\n# source: rotor_stator 0.1.0\n"  # a table of this program
+OWN = "# Branch of harmonic balance\n# source: rotor_stator 0.1.0\n"  # a file of --save
+OTHER = OWN.replace("Branch of harmonic balance", "Orbit")
 
 
 class Values(Case):
@@ -130,6 +131,7 @@ class Values(Case):
                 ("--count 3 --motions machine.toml", "is the input"),
                 ("--count 3 --section same.tsv --motions same.tsv", "is the file of two options"),
                 ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
+                ("--count 3 --columns v_x_r", "--columns v_x_r: must be"),
                 ("--count 3 --starts 1.5", "--starts")], "attractors", self.machine, "--from", 10, "--to", 20)
         self.refused("--from 10 Hz: must be below --to 10 Hz", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
         self.refused_each([("--from 3 --to 2", "--from 3 Hz: must be below --to 2 Hz"), ("--format xml", "must be one of tsv, csv, json")],
@@ -251,12 +253,12 @@ class Save(Case):
     def test_only_what_this_program_wrote(self):
         """Of its own kind, unless forced. Would catch notes, a matrix or a measurement that a slip of the pen replaces."""
         matrix = "%%MatrixMarket matrix coordinate real general\n% written by rotor_stator\n1 1 1\n1 1 1\n"
-        for option, text in [("--save", "notes"), ("--save", "# a\n# b\n"), ("--waterfall", matrix), ("--plot", OWN),
+        for option, text in [("--save", "notes"), ("--save", OTHER), ("--waterfall", OWN), ("--save", "# a\n# b\n"), ("--waterfall", matrix), ("--plot", OWN),
                              ("--save", "<?xml rotor_stator"), ("--plot", "<?xml>")]:
             with self.subTest(option=option, text=text):
                 old = self.file("old.svg", text)
                 words = ["response", self.machine, *RESPONSE, "--harmonics", 6, option, old]
-                self.refused("no file that this program wrote; --force replaces it", *words)
+                self.refused(f"no file of {option} that this program wrote; --force replaces it", *words)
                 self.assertEqual(old.read_text(), text)
                 self.lines(*words, "--force")
                 self.lines(*words)
@@ -274,7 +276,7 @@ class Save(Case):
         for other in ["./new.tsv", "folder/../new.tsv"]:
             self.refused("is the file of two options", *self.save("new.tsv"), "--waterfall", other)
         os.link(self.file("old.tsv", OWN), self.folder / "link.tsv")
-        self.refused("is the file of two options", *self.save("old.tsv"), "--waterfall", "link.tsv")
+        self.refused("is the file of two options", *self.save("old.tsv"), "--waterfall", "link.tsv", "--force")
         self.file("measured.svg", "f\tamplitude\n45\t1e-6\n")
         self.refused("is the input", "spectrum", self.machine, "--frequency", 45, "--overlay", "measured.svg", "--plot",
                      "./measured.svg")
