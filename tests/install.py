@@ -53,7 +53,7 @@ def main(build):
         table = run(prefix / "bin" / "explore", "orbit", machine, "--frequency", 45, "--harmonics", 6, cwd=folder)
         if "\nphase\t" not in table:
             sys.exit("the installed explore prints no orbit")
-        run(prefix / "bin" / "explore", "attractors", machine, "--from", 45, "--to", 46, "--count", 1,
+        run(prefix / "bin" / "explore", "attractors", machine, "--from", 45, "--to", 45, "--count", 1,
             "--starts", 0, "--plot", "figure.svg", cwd=folder)
         if "</svg>" not in Path(folder, "figure.svg").read_text(encoding="utf-8"):
             sys.exit("the installed explore draws no figure")

@@ -127,7 +127,8 @@ void require_one_passage(const Parameters& parameters)
           format("%s: bearing: n*omega_cage/omega is %.9g at the first and %.9g at "
                  "another one: more than two frequencies, which only --method "
                  "gauss follows",
-                 parameters.file.c_str(), first, passages_per_turn(bearing)));
+                 parameters.file.c_str(), first / parameters.turns,
+                 passages_per_turn(bearing) / parameters.turns));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ struct Task {
 
 Task task_of(const AttractorsRequest& request)
 {
-  require_range(request.from, request.to, request.count == 1);
+  require_range(request.from, request.to, request.count);
   const Parameters machine = machine_of(request, request.from, request.to);
   const int most_starts = most_runs / request.count - 3;
   if (request.starts > most_starts)
@@ -252,7 +252,7 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     if (!task.request.motions) request.points = 4;
   }
   if (!measures.empty()) {
-    const motion::Answer all = whole_motion(found.answer, request, budget);
+    const motion::Answer all = whole_motion(measures, found.answer, request, budget);
     const double step = angular(1) / (all.omega * all.motion.points_per_period);
     found.measured =
         measures.of({all.machine, all.motion, step, found.speed, closes(all)});

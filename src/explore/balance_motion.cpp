@@ -138,8 +138,8 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   table.value("method", "aft");
   put_base(table, base.words(), based.omega / angular(1));
   if (request.tolerance) table.value("tolerance", *request.tolerance);
-  table.value("harmonics", solution.harmonics.count() / k);
-  table.value("samples", solution.samples / k);
+  table.value("harmonics", solution.harmonics.count() / (k * base.turns));
+  table.value("samples", solution.samples / (k * base.turns));
   if (k > 1) table.note(format("orders h/%d of the speed", k));
   table.value("start", one_word(solution.start));
   table.note("newton: " + solution.newton.reason());
@@ -245,6 +245,10 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
                request.subharmonic, passages_per_turn(parameters.bearing)));
   if (base.is_driven_twice() && request.samples)
     throw BadInput("--samples: chosen where n*omega_cage/omega is not a whole number");
+  const int chosen =
+      (request.harmonics ? 1 : 0) + (request.lines ? 1 : 0) + (request.tolerance ? 1 : 0);
+  if (base.is_driven_twice() && chosen > 1)
+    throw BadInput("--harmonics, --lines, --tolerance: one of them with two frequencies");
   if (!base.is_driven_twice() && request.lines)
     throw BadInput("--lines: is of motions with two frequencies; give --harmonics");
   return base.is_driven_twice()

@@ -84,11 +84,13 @@ Exploration explore_campbell(const CampbellRequest& request)
   table.note(
       "row bearing: mean contact stiffness xx, xy, yy [N/m], 0: no contact at rest");
   std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
-  for (const Bearing& bearing : bearings_of(parameters))
-    if (const double value = passages_per_turn(bearing);
-        std::abs(value - orders.back().first) > 1e-9)
-      orders.emplace_back(
-          value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size()));
+  for (int number = 1; const Bearing& bearing : bearings_of(parameters)) {
+    const double value = passages_per_turn(bearing);
+    const auto is_same = [&](auto& one) { return std::abs(value - one.first) <= 1e-9; };
+    const std::string tail = number == 1 ? "" : format("_%d", number);
+    if (std::ranges::none_of(orders, is_same)) orders.emplace_back(value, "BPFO" + tail);
+    ++number;
+  }
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
   const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;

@@ -19,23 +19,23 @@ namespace {
 /**
 ## The header */
 
-void put_method(Table& table, const MapTask& task)
+void put_method(Table& table, const MapTask& task, bool is_integrated)
 {
   const MapRequest& request = task.request;
   table.value("method", request.method);
-  if (request.method != "aft")
-    return table.note("longest step of rk4, a fourth of one of splitting: " +
-                      (request.step > 0 ? format("%.15g s", request.step)
-                                        : std::string("from K_H and --tolerance")) +
-                      "; transient " +
-                      (request.longest > 0
-                           ? format("at most %.15g s after t = 0", request.longest)
-                           : std::string("until it is over")));
-  if (request.tolerance && !request.harmonics)
-    return table.note("harmonics: chosen for the tolerance");
+  if (is_integrated)
+    table.note("longest step of rk4, a fourth of one of splitting: " +
+               (request.step > 0 ? format("%.15g s", request.step)
+                                 : std::string("from K_H and --tolerance")) +
+               "; transient " +
+               (request.longest > 0
+                    ? format("at most %.15g s after t = 0", request.longest)
+                    : std::string("until it is over")));
+  if (request.method != "aft") return;
+  table.note(format("relative tolerance of Newton %.15g", request.newton_tolerance));
+  if (request.tolerance) return table.note("harmonics: chosen for the tolerance");
   table.value("harmonics", task.harmonics);
   table.value("samples", task.samples);
-  table.note(format("relative tolerance of Newton %.15g", request.newton_tolerance));
 }
 
 /** What the first and the last point add to the doubts of the machine. */
@@ -78,9 +78,9 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
     table.value("sweep_to", task.sweep.back());
   }
   const auto from_rest = [](const Quantity& q) { return q.source == Source::rest; };
-  if (std::ranges::any_of(chosen, from_rest))
-    table.note("motion from rest: as explore orbit settles it");
-  if (!std::ranges::all_of(chosen, from_rest)) put_method(table, task);
+  const bool has_rest = std::ranges::any_of(chosen, from_rest);
+  if (has_rest) table.note("motion from rest: as explore orbit settles it");
+  put_method(table, task, has_rest || request.method != "aft");
   if (request.tolerance) table.value("tolerance", *request.tolerance);
   table.value("budget", budget_of_each(request.budget, seconds_of_a_point, base).most(),
               6);

@@ -47,6 +47,7 @@ Axis read_axis(const std::string& option, const std::string& text)
   const double from = end(parts[0]), to = end(parts[1]);
   const int count = whole_number(option, parts[2], 1, most_points);
   if (count > 1 && from == to) refuse("from and to must differ");
+  if (count == 1 && from != to) refuse("one value is KEY=A:A:1");
   if (logarithmic && (from <= 0 || to <= 0)) refuse("log needs from > 0 and to > 0");
   return {key, from, to, static_cast<std::size_t>(count), logarithmic};
 }
@@ -71,7 +72,10 @@ Grid grid_of(const MapRequest& request)
   if (!request.list && request.x.empty() && request.y.empty())
     throw BadInput("--x: is missing; give --x, --y or --list");
   Grid grid{read_axis("--x", request.x), read_axis("--y", request.y)};
-  if (request.list) grid.list.emplace(*request.list);
+  if (request.list) {
+    grid.list.emplace(*request.list);
+    for (const std::string& name : grid.list->names()) grid.list->at(0, name);
+  }
   read_lines(request.lines, grid);
   auto keys = grid.keys();
   std::ranges::sort(keys);
@@ -200,8 +204,10 @@ MapTask task_of(const MapRequest& request)
                      checked_samples(harmonics, request.samples)};
   if (task.has_speed() && request.frequency)
     throw BadInput("--frequency: is a key of the map already");
-  if (request.tolerance && request.samples && !request.harmonics)
-    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+  if (request.tolerance && request.harmonics)
+    throw BadInput("--tolerance: chooses the harmonics; with --harmonics ask for error");
+  if (request.tolerance && request.samples)
+    throw BadInput("--samples: chosen with m for --tolerance");
   require_tables(task);
   /** The corners, so that an unknown key or a range that no machine has is refused at
       once. */

@@ -68,6 +68,8 @@ public:
     });
   }
 
+  int harmonics() { return chosen().motion.harmonics.count() / base_.turns; }
+
   const motion::Verdict& verdict()
   {
     return verdict_([&] {
@@ -170,15 +172,18 @@ public:
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
-    const motion::Answer* const whole = is_balance() ? nullptr : &whole_([&] {
-      return whole_motion(settled(), question().request, budget_);
-    });
-    const motion::Motion& record = whole ? whole->motion : motion();
-    const Parameters& machine = whole ? whole->machine : moving();
-    const double omega = whole ? whole->omega : solution().omega;
-    const double step = angular(1) / (omega * record.points_per_period);
-    const bool is_closed = !whole || closes(*whole);
-    return measures.of({machine, record, step, frequency_, is_closed}).at(0);
+    if (is_balance()) {
+      const double omega = solution().omega;
+      const auto [points, periods] = measures.recording(based_.machine, omega, instants);
+      const motion::Motion record = motion::motion_of(solution(), points);
+      const double step = angular(1) / (omega * points);
+      return measures.of({based_.machine, record, step, frequency_, true}).at(0);
+    }
+    const motion::Answer& whole = whole_(
+        [&] { return whole_motion(measures, settled(), question().request, budget_); });
+    const double step = angular(1) / (whole.omega * whole.motion.points_per_period);
+    const bool is_closed = closes(whole);
+    return measures.of({whole.machine, whole.motion, step, frequency_, is_closed}).at(0);
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
@@ -231,7 +236,7 @@ public:
 private:
   bool is_balance() const { return task_.request.method == "aft"; }
   /** Whether the tolerance chooses m. */
-  bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
+  bool is_chosen() const { return task_.request.tolerance.has_value(); }
 
   bool asks_for(const std::vector<std::string>& names) const
   {
@@ -322,7 +327,7 @@ const std::vector<Quantity> quantities{
      Source::rest, &MapPoint::lyapunov},
 
     {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", Source::solution,
-     [](auto& p) { return p.chosen().motion.harmonics.count(); }},
+     &MapPoint::harmonics},
     {"distance", "-",
      "of the solution from the motion behind stability, rms about the mean",
      Source::solution, [](auto& p) { return p.floquet(), p.verdict().distance.rms; }},
@@ -400,6 +405,8 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
   const bool has_speed = request.frequency || task.has_speed();
   if (!swept.empty() && task.sweep.empty())
     throw BadInput("--sweep: is missing, the speeds of " + swept);
+  if (!swept.empty() && request.tolerance)
+    throw BadInput("--tolerance: not for " + swept + ", over --sweep; give --harmonics");
   if (swept.empty() && !task.sweep.empty())
     throw BadInput("--sweep: no quantity of a range of speeds is asked for");
   if (!here.empty() && !has_speed)

@@ -262,8 +262,10 @@ std::vector<std::vector<double>> Measures::at_instants(const Record& record) con
   return columns;
 }
 
-Recording recording_for_rates(const Parameters& machine, double omega, int points)
+Recording Measures::recording(const Parameters& machine, double omega, int points,
+                              int periods) const
 {
+  if (empty()) return {points, periods};
   constexpr double each = 16;   // of a vibration
   constexpr double most = 3e7;  // numbers that are kept
   constexpr int least_periods = 16;
@@ -274,13 +276,13 @@ Recording recording_for_rates(const Parameters& machine, double omega, int point
                       machine.bodies->quickest_contact(machine) / omega);
   while (points < needed && 2 * points * numbers * least_periods <= most) points *= 2;
   return {points, std::clamp(static_cast<int>(most / numbers / points), least_periods,
-                             Measures::open_periods)};
+                             open_periods)};
 }
 
-motion::Answer whole_motion(motion::Answer answer, motion::Request request,
-                            const OperationBudget& budget)
+motion::Answer whole_motion(const Measures& measures, motion::Answer answer,
+                            motion::Request request, const OperationBudget& budget)
 {
-  const auto [points, periods] = recording_for_rates(answer.machine, answer.omega, 256);
+  const auto [points, periods] = measures.recording(answer.machine, answer.omega, 256);
   request.points = points;
   request.periods = periods;
   request.is_measured = false;

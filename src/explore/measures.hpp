@@ -39,9 +39,6 @@ struct Recording {
   int points, periods;
 };
 
-/** P is `points` times a power of two. */
-Recording recording_for_rates(const Parameters& machine, double omega, int points);
-
 /** WHAT is taken of which displacement, as `shown_at` counts, or of which bearing; -1: of
     any. What a bearing has once in a record is taken as its mean. */
 struct Measure {
@@ -67,6 +64,10 @@ public:
   /** Whether any is of the whole motion, not of its instants. */
   bool needs_whole() const;
 
+  /** What they need, P `points` times a power of two; that alone without any. */
+  Recording recording(const Parameters& machine, double omega, int points,
+                      int periods = open_periods) const;
+
   /** The values of the whole motion; of instant k. */
   std::vector<double> of(const Record& record) const;
   std::vector<std::vector<double>> at_instants(const Record& record) const;
@@ -89,9 +90,9 @@ Measures add_measures(std::vector<Field<Row>>& fields, const std::string& names,
   return measures;
 }
 
-/** The motion of an answer, recorded so. */
-motion::Answer whole_motion(motion::Answer answer, motion::Request request,
-                            const OperationBudget& budget);
+/** The motion of an answer, recorded as measures need it. */
+motion::Answer whole_motion(const Measures& measures, motion::Answer answer,
+                            motion::Request request, const OperationBudget& budget);
 
 /** Whether it goes on from its beginning. */
 bool closes(const motion::Answer& answer);

@@ -20,10 +20,11 @@
 
 namespace rotor_stator::explore {
 
-void require_range(double from, double to, bool takes_one)
+void require_range(double from, double to, std::optional<int> count)
 {
-  if (from > to || (from == to && !takes_one))
+  if (from > to || (from == to && count.value_or(1) > 1))
     throw BadInput(format("--from %g Hz: must be below --to %g Hz", from, to));
+  if (from < to && count == 1) throw BadInput("--count 1: is for --from equal to --to");
 }
 
 void require_method_of(const Parameters& parameters, const std::string& method)
@@ -320,6 +321,9 @@ Exploration explore_orbit(const MotionRequest& request)
                               {"y_r", "m", "rotor"},
                               {"F_x", "N", "Eq. 6, on the stator"},
                               {"F_y", "N", "Eq. 6, on the stator"}};
+  if (request.periods > most_rows / request.points)
+    throw BadInput(format("--periods %d: %d points are at most %d rows", request.periods,
+                          request.points, most_rows));
   const std::size_t bearings = 1 + parameters.further.size();
   for (std::size_t b = 2; b <= bearings; ++b)
     for (const char* axis : {"x", "y"})
@@ -342,7 +346,7 @@ Exploration explore_orbit(const MotionRequest& request)
   int recorded = request.periods;
   if (!measures.empty()) {
     const auto [machine, omega] = over(base, parameters, angular(request.frequency));
-    const auto [points, periods] = recording_for_rates(machine, omega, request.points);
+    const auto [points, periods] = measures.recording(machine, omega, request.points);
     finer.points = points;
     if (measures.needs_whole()) recorded = std::max(recorded, periods);
     if (base.is_driven_twice()) finer.periods = recorded;
@@ -394,7 +398,8 @@ Exploration explore_contact(const MotionRequest& request)
       time_column,
       {"angle", "rad", "theta_j of Eq. 3, modulo 2 pi"},
       {"stress", "N/mm^2", "largest pressure of Hertz on the races"}};
-  if (bearing.pressure == 0) columns.pop_back();
+  const auto is_unknown = [](const Bearing& one) { return one.pressure == 0; };
+  if (std::ranges::any_of(bearings_of(parameters), is_unknown)) columns.pop_back();
   const std::size_t bearings = 1 + parameters.further.size();
   if (bearings > 1)
     columns.insert(columns.begin() + 1, {"bearing", "-", "in the order of the file"});

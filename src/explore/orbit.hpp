@@ -84,7 +84,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
                   int open_periods, Table& table);
 
 /** Throws BadInput unless --from is below --to, or the same where one speed is taken. */
-void require_range(double from, double to, bool takes_one = false);
+void require_range(double from, double to, std::optional<int> count = 2);
 
 /** So many speeds, both ends among them. */
 std::vector<double> evenly_spaced(double from, double to, int count);

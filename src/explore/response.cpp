@@ -54,10 +54,10 @@ void require_options(const ResponseRequest& request)
     throw BadInput("--subharmonic: not together with --save, --restart or --isolated");
   if (request.tolerance &&
       (request.harmonics || request.samples || is_beside || request.subharmonic > 1 ||
-       request.stability || request.waterfall))
+       request.stability || request.waterfall || request.times))
     throw BadInput(
         "--tolerance: not together with --harmonics, --samples, --save, --restart, "
-        "--isolated, --subharmonic, --stability or --waterfall");
+        "--isolated, --subharmonic, --stability, --waterfall or --times");
 }
 
 /** Where the balls' passing has not the period of rotation, or nothing else moves. */

@@ -323,14 +323,16 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
     motion.bodies = body_series(task_.parameters, motion);
   row.harmonics = harmonics_of(task_, motion.bodies);
   const Measures& measures = columns_.measures;
-  if (has_further_)
-    observe(
-        row, task_.parameters,
-        task_.has_two_frequencies
-            ? motion::motion_of(task_.parameters, motion, measures.empty() ? 128 : 512,
-                                measures.empty() ? 64 : Measures::open_periods)
-            : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)),
-        motion.omega, !task_.has_two_frequencies, measures);
+  if (has_further_) {
+    const bool two = task_.has_two_frequencies;
+    const auto [points, turns] =
+        measures.recording(task_.parameters, motion.omega,
+                           two ? 128 : std::max(256, 4 * task_.harmonics + 4), 64);
+    observe(row, task_.parameters,
+            two ? motion::motion_of(task_.parameters, motion, points, turns)
+                : motion::motion_of(motion, points),
+            motion.omega, !two, measures);
+  }
   table_.row(columns_.fields, row);
   if (!has_lines) return;
   auto found = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
@@ -425,8 +427,9 @@ Exploration branch_by_shooting(const ResponseTask& task)
   std::string why;
   for (const auto& [solution, arc, tangent] : branch.points) {
     const State there = curve.state(solution.x);
-    const motion::Motion motion = motion::one_period(machine, solution.omega, there,
-                                                     {.intervals_per_period = points});
+    const auto finer = measures.recording(machine, solution.omega, points, 1);
+    const motion::Motion motion = motion::one_period(
+        machine, solution.omega, there, {.intervals_per_period = finer.points});
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
         .frequency = solution.omega / angular(1),

@@ -81,11 +81,23 @@ std::vector<Ended> ended_at(const Sweep& sweep, std::span<const double> speeds,
   return all;
 }
 
-/** The rows of an interrupted table of the same question, at the first speeds. */
-std::vector<std::vector<Cell>> rows_to_resume(const Sweep& sweep)
+/** The rows of an interrupted table of the same question, and how many speeds it has
+    passed; one without a row has been lost. */
+struct Resumed {
+  std::vector<std::vector<Cell>> rows = {};
+  std::size_t speeds = 0;
+};
+
+Resumed rows_to_resume(const Sweep& sweep)
 {
-  std::vector<std::vector<Cell>> rows;
-  if (!sweep.request.resume) return rows;
+  const ResponseRequest& request = sweep.request;
+  Resumed known;
+  if (!request.resume) return known;
+  if (!request.columns.empty() && request.plot)
+    throw BadInput("--plot: of a resumed table needs all its columns; without --columns");
+  if (!request.columns.empty() && request.columns != "all" &&
+      !(request.columns + ",").starts_with("f,"))
+    throw BadInput("--resume: needs f as the first of --columns");
   const auto add = [&](const std::string&, const std::vector<std::string>& words) {
     std::vector<Cell> cells;
     for (const std::string& word : words) {
@@ -93,14 +105,18 @@ std::vector<std::vector<Cell>> rows_to_resume(const Sweep& sweep)
       if (!number) throw BadInput("has a cell that is no number: " + word);
       cells.emplace_back(*number);
     }
-    const std::string speed =
-        rows.size() < sweep.speeds.size() ? Cell(sweep.speeds[rows.size()]).text() : "";
-    if (cells.size() != sweep.table.printed() || cells.front().text() != speed)
+    const auto is_next = [&](double speed) {
+      return Cell(speed).text() == cells.front().text();
+    };
+    const auto rest = std::span(sweep.speeds).subspan(known.speeds);
+    const auto found = std::ranges::find_if(rest, is_next);
+    if (cells.size() != sweep.table.printed() || found == rest.end())
       throw BadInput("holds other points");
-    rows.push_back(std::move(cells));
+    known.speeds += static_cast<std::size_t>(found - rest.begin()) + 1;
+    known.rows.push_back(std::move(cells));
   };
   each_row_of(*sweep.request.resume, "response", sweep.table.beginning(), add);
-  return rows;
+  return known;
 }
 
 Exploration computed(Sweep& sweep)
@@ -108,7 +124,7 @@ Exploration computed(Sweep& sweep)
   const ResponseRequest& request = sweep.request;
   const Allowance& budget = request.budget;
   Table& table = sweep.table;
-  const auto known = rows_to_resume(sweep);
+  const auto [known, passed] = rows_to_resume(sweep);
   const bool is_streamed = request.format != TableFormat::json;
   bool has_rows = false;
   /** Nothing is written before there is a row. */
@@ -121,8 +137,8 @@ Exploration computed(Sweep& sweep)
     table.printed_row(cells);
   }
   double spent = 0;
-  std::size_t lost = 0, next = known.size();
-  std::string missing, first_lost;
+  std::size_t lost = passed - known.size(), next = passed;
+  std::string missing, first_lost = "in the table that was resumed";
   const double most = budget.evaluations > 0 ? budget.evaluations
                                              : std::numeric_limits<double>::infinity();
   const std::size_t block = sweep.side_by_side,
@@ -211,7 +227,8 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
     finer.points = motion::instants_of(answer.machine, answer.omega);
     if (asked.is_measured || measures.empty()) complete(closed, finer, budget);
     row.lyapunov = closed.settled.lyapunov.value;
-    answer = measures.empty() ? std::move(closed) : whole_motion(answer, asked, budget);
+    answer = measures.empty() ? std::move(closed)
+                              : whole_motion(measures, answer, asked, budget);
     observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
     if (row.contact_share > 0) sweep.touches = true;
     answer.motion = {};
@@ -227,7 +244,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
 
 Exploration settled_response(const ResponseRequest& request)
 {
-  require_range(request.from, request.to, request.count.value_or(1) == 1);
+  require_range(request.from, request.to, request.count);
   const std::string direction = request.direction.empty() ? "rest" : request.direction;
   if (direction != "rest" && direction != "up" && direction != "down")
     throw BadInput("--direction " + direction + ": must be rest, up or down");
@@ -297,6 +314,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
     BalanceSearch search{.parameters = task.parameters,
                          .omega = task.base(frequency),
                          .harmonics = 6,
+                         .newton = task.settings.newton,
                          .budget = budget};
     if (before.size() > 0) search.starts = {before};
     const motion::Judged at = motion::to_tolerance(search, tolerance);
@@ -310,10 +328,12 @@ Exploration response_to_tolerance(const ResponseTask& task)
     row.harmonics =
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)
                                .reshaped(4, 2 * task.harmonics + 1));
-    const int points = std::max(256, 4 * at.motion.harmonics.count() + 4);
+    const int least = std::max(256, 4 * at.motion.harmonics.count() + 4);
+    const Measures& measures = sweep.columns.measures;
+    const int points = measures.recording(task.parameters, at.motion.omega, least).points;
     if (sweep.has_further)
       observe(row, task.parameters, motion::motion_of(at.motion, points), at.motion.omega,
-              true, sweep.columns.measures);
+              true, measures);
     if (motion::touches(task.parameters, at.motion)) sweep.touches = true;
     return row;
   };

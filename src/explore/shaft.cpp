@@ -244,7 +244,6 @@ Exploration explore_shaft(const ShaftRequest& request)
       {folder / "K.mtx", matrix_text(k)}};
   for (const NamedContent& file : files)
     require_writable("--to", file.name, {request.parameter_file}, request.force);
-  write_files(files);
 
   Table table("Nodes of a shaft and their degrees of freedom",
               {{"node", "-", "from 1"},
@@ -262,6 +261,7 @@ Exploration explore_shaft(const ShaftRequest& request)
   table.note("matrices: M, C, G, K in " + request.folder);
   for (std::size_t i = 0; i < shaft.z.size(); ++i)
     table.row({i + 1, shaft.z[i], 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4});
+  write_files(files);
   return {std::move(table)};
 }
 

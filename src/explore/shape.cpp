@@ -44,7 +44,10 @@ Exploration explore_shape(const ShapeRequest& request)
     throw BadInput(request.parameter_file +
                    ": rotor.matrices is missing: shape is that of a rotor given by them");
   const Machine& machine = *parameters.bodies;
-  Table table("Orbits of a rotor's nodes over one period", columns);
+  Table table(request.periods == 1
+                  ? "Orbits of a rotor's nodes over one period"
+                  : format("Orbits of a rotor's nodes over %d periods", request.periods),
+              columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
   const Computed at = computed(parameters, request, request.periods, table);
   table.note("nodes: " + request.nodes);

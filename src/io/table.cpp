@@ -262,6 +262,11 @@ std::vector<std::string> split(const std::string& line, char between)
       cells.back() += c == ',' && between == ';' ? '.' : c;
   }
   if (cells.back().empty()) cells.pop_back();
+  if (between != '\t')
+    for (std::string& cell : cells) {
+      cell.erase(cell.find_last_not_of(' ') + 1);
+      cell.erase(0, cell.find_first_not_of(' '));
+    }
   return cells;
 }
 
@@ -283,6 +288,7 @@ std::string writer_of_other_schema(const std::string& file)
   const std::string source = "# source: ";
   std::string writer;
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
+    if (line.ends_with('\r')) line.pop_back();
     if (line == format("# schema: %d", schema)) return "";
     if (line.starts_with(source)) writer = line.substr(source.size());
   }
@@ -315,6 +321,10 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
     if (names_.empty()) {
       between_ = separator_of(line);
       names_ = split(line, between_);
+      auto sorted = names_;
+      std::ranges::sort(sorted);
+      if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+        fail("has the column " + *twice + " twice");
       continue;
     }
     lines_.push_back(number);

@@ -181,16 +181,16 @@ public:
                               : full_reaction(at, u, rate);
   }
 
-  /** The same of an undamaged bearing at rest, with ball 1 at the angle `cage`. */
+  /** The same at rest, the rotor at the angle 0 and ball 1 at the angle `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
-    return bearing_.is_hertzian() ? elastic_force(cage, u)
-                                  : full_reaction({{1, 0}, cage}, u, {}).force;
+    return bearing_.is_intact_hertz() ? elastic_force(cage, u)
+                                      : full_reaction({{1, 0}, cage}, u, {}).force;
   }
   ElasticReaction reaction(Direction cage, Vec2 u) const
   {
-    return bearing_.is_hertzian() ? elastic_reaction(cage, u)
-                                  : full_reaction({{1, 0}, cage}, u, {});
+    return bearing_.is_intact_hertz() ? elastic_reaction(cage, u)
+                                      : full_reaction({{1, 0}, cage}, u, {});
   }
 
   BallRing ring() const

@@ -137,8 +137,20 @@ LargeBodies matrices_of(const Parameters& parameters)
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
                                        const LargeBodies& machine, double rotor_speed)
 {
-  constexpr int angles = 4096;  // a ball that loses its load is still stiff, or nearly
-  return at_rest(parameters, machine, angles, rotor_speed).stiffness;
+  /** Few where each ball gets its load and loses it gradually, more where its stiffness
+      jumps or few balls carry. */
+  constexpr int fewest = 64, most = 4096;
+  constexpr double error = 2e-4;
+  const auto at = [&](int angles) {
+    return at_rest(parameters, machine, angles, rotor_speed).stiffness;
+  };
+  Eigen::MatrixXd mean = at(fewest);
+  for (int angles = 2 * fewest; angles <= most; angles *= 2) {
+    const Eigen::MatrixXd finer = at(angles);
+    if ((finer - mean).norm() <= error * finer.norm()) break;
+    mean = finer;
+  }
+  return mean;
 }
 
 State MatrixMachine::at_rest(const Parameters& parameters, Direction) const

@@ -121,17 +121,13 @@ struct Bearing {
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
-  /** Which force it is: Eq. 5, with nothing beside the balls (`is_hertzian`); of intact
-      balls (`is_intact_hertz`); without contact damping too (`is_elastic_hertz`), as in
-      the paper: it then depends on u and the cage's angle alone. */
-  bool is_hertzian() const
-  {
-    return exponent == 1.5 && clearance >= 0 && !parallel.any();
-  }
-
+  /** Which force it is: Eq. 5 of intact balls with nothing beside them; without contact
+      damping too (`is_elastic_hertz`), as in the paper: it then depends on u and the
+      cage's angle alone. */
   bool is_intact_hertz() const
   {
-    return is_hertzian() && is_damaged(Defect::Surface::none);
+    return exponent == 1.5 && clearance >= 0 && !parallel.any() &&
+           is_damaged(Defect::Surface::none);
   }
 
   bool is_elastic_hertz() const { return damping == 0 && is_intact_hertz(); }

@@ -30,7 +30,7 @@ SparseMatrix read_one(const std::filesystem::path& file, double sign, bool requi
                       int size)
 {
   std::error_code error;
-  const auto found = std::filesystem::status(file, error).type();
+  const auto found = std::filesystem::symlink_status(file, error).type();
   if (!required && found == std::filesystem::file_type::not_found)
     return SparseMatrix(size, size);
   const SparseMatrix matrix = read_matrix(file);
@@ -285,8 +285,9 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
                loads = all.bodies[0].size_of_loads + all.bodies[1].size_of_loads;
   const double spring = hertz_stiffness(
       k_h, hertz_penetration(k_h, std::max(loads, hertz_force(k_h, 1e-6))));
-  if (has_matrices[1])
-    parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
+  parameters.unbalance = (all.bodies[0].unbalance.cwiseAbs().sum() +
+                          all.bodies[1].unbalance.cwiseAbs().sum()) /
+                         2;
   double passages = 0;
   for (const Bearing& bearing : bearings_of(parameters))
     passages = std::max(passages, passages_per_turn(bearing));

@@ -419,6 +419,9 @@ class Options(Case):
             with self.subTest("response " + option):
                 self.refused(f"{option.split()[0]}: is of a branch of solutions; give --harmonics M", "response", self.machine,
                              *RESPONSE, *option.split())
+        two = self.file("two.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.39"))
+        self.refused("one of them with two frequencies", "orbit", two, *ORBIT, "--harmonics", 3, "--tolerance", 1e-8)
+        self.refused("--count 1: is for --from equal to --to", "response", self.machine, *RESPONSE, "--count", 1)
         self.refused("--tolerance: is for --method auto or aft", "response", self.machine, *RESPONSE, "--method", "shooting",
                      "--tolerance", 1e-3)
         for method in ["aft", "shooting"]:

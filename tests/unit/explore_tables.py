@@ -157,6 +157,11 @@ class Branch(Case):
         part = [row for row in whole if not row.startswith("# ") or row.split(":")[0] not in ("# complete", "# contact", "# evaluations")]
         rest = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(part[:-13]) + "\n"))
         self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole if row[0] != "#"])
+        holed = [row for row in part[:-13] if not row.startswith("20.5263")]  # a speed that was lost
+        again = self.run_explore(*thirds, "--resume", self.file("part.tsv", "\n".join(holed) + "\n"))
+        self.assertEqual((again.returncode, "1 of 20 speeds have no value" in again.stderr), (3, True), again.stderr)
+        self.refused("needs f as the first", *thirds, "--columns", "amp_x_r,f", "--resume", "part.tsv")
+        self.refused("needs all its columns", *thirds, "--columns", "f,amp_x_r", "--resume", "part.tsv", "--plot", "a.svg")
         damped = self.file("damped.toml", MACHINE.replace("cage_speed_ratio", "contact_damping_s_per_m = 5.0\ncage_speed_ratio"))
         self.assertEqual(self.table("response", damped, "--from", 40, "--to", 42, "--count", 3).value("contact"), "yes")
         loose = self.file("loose.toml", MACHINE.replace("= 2e-5", "= 2e-2"))
@@ -352,7 +357,7 @@ class Attractors(Case):
         return self.table("attractors", self.machine, *options)
 
     def at(self, frequency, *options):
-        return self.attractors("--from", frequency, "--to", frequency + 1, "--count", 1, *options)
+        return self.attractors("--from", frequency, "--to", frequency, "--count", 1, *options)
 
     def test_between_the_doublings_the_period_is_two_from_every_start(self):
         table = self.attractors("--from", 19.75, "--to", 20.25, "--count", 3, "--section", "section.tsv")

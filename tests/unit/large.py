@@ -98,6 +98,16 @@ class Large(Case):
                     self.same(a, b, 1e-10, NAMES, FORCES)
                     self.assertEqual(*(self.said(table, "stability", "regime", "period") for table in (a, b)))
 
+    def test_unbalance_of_the_stator(self):
+        """It alone excites; its period is the turn's, by harmonic balance as by integration."""
+        text = self.paper_machine()
+        line = re.search(r"^unbalance.*\n", text, re.MULTILINE)[0]
+        own = self.file("own.toml", text.replace(line, "").replace("[rotor]\n", line + "[rotor]\n"))
+        balance, integrated = (self.table("orbit", own, "--frequency", 45, *how) for how in (["--harmonics", 12], []))
+        self.assertEqual(balance.value("base"), "turn")
+        for name in NAMES:
+            self.assertAlmostEqual(np.ptp(balance[name]) / np.ptp(integrated[name]), 1, delta=0.01)
+
     def test_bearings_that_are_not_plain(self):
         """Contact damping, a spall, preload, rollers and a seal: single masses by matrices answer as two masses do, by harmonic
         balance, verdict and integration. A rate or a slope that is left out would show."""

@@ -149,7 +149,7 @@ class Values(Case):
         orbit = self.table("orbit", self.machine, "--frequency", 45, "--harmonics", 6)
         self.assertAlmostEqual(table["distance"][1] / orbit.value("distance_rms"), 1, delta=0.01)
         self.assertAlmostEqual(orbit.value("verdict_evaluations") / table["evaluations"][1], 1, delta=6e-3)
-        table = self.table("map", self.machine, "--y", "frequency=45:46:1", "--harmonics", 64, "--quantity",
+        table = self.table("map", self.machine, "--y", "frequency=45:45:1", "--harmonics", 64, "--quantity",
                            "multiplier,uncertainty,series,series_uncertainty")
         self.assertAlmostEqual(table["series"][0], table["multiplier"][0], delta=2e-4)
         self.assertTrue((0 < table["uncertainty"] < 1e-4) and (0 < table["series_uncertainty"] < 1e-5))
@@ -160,7 +160,7 @@ class Values(Case):
         Would catch an error against a motion that has not settled, and one that is left out."""
         machine = self.file("loose.toml", MACHINE.replace("= 1e11", "= 1e12").replace("= 2e-5", "= 8.333333e-5"))
         self.assertNotEqual(machine.read_text(encoding="utf-8"), MACHINE)
-        table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "error")
+        table = self.table("map", machine, "--y", "frequency=30:30:1", "--harmonics", 6, "--quantity", "error")
         six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
         self.assertEqual(long.value("regime"), "chaotic")
@@ -173,11 +173,11 @@ class Values(Case):
         """At 20 Hz two turns, at 30 Hz one."""
         table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
         self.assertEqual(list(table["period"]), [2, 1])
-        self.assertIsNone(table.value("method", None))
+        self.assertEqual(table.value("method"), "auto")
         balanced = self.table("map", self.machine, "--y", "frequency=30:30:1", *SIX, "--quantity", "period,amplitude")
         self.assertEqual((balanced.value("method"), balanced.value("harmonics")), ("aft", 6))
         for k, frequency in enumerate((20, 30)):
-            known = self.table("attractors", self.machine, "--from", frequency, "--to", frequency + 1, "--count", 1,
+            known = self.table("attractors", self.machine, "--from", frequency, "--to", frequency, "--count", 1,
                                "--starts", 0)
             self.assertAlmostEqual(table["lyapunov"][k], known["lyapunov"][0], delta=1e-9)
 
@@ -213,7 +213,7 @@ class Values(Case):
 
     def test_list(self):
         """Rows of a table are points, or with --x lines: the same numbers as those of a grid."""
-        points = self.file("points.tsv", f"rotor.mass_kg\t{CLEARANCE}\n40\t2e-05\n45\t3e-05\n")
+        points = self.file("points.csv", f"rotor.mass_kg, {CLEARANCE}\n40, 2e-05\n45 , 3e-05\n")
         some = self.table("map", self.machine, "--list", points, "--frequency", 45, *SIX, "--quantity", "amplitude")
         self.assertEqual(list(some["rotor.mass_kg"]), [40, 45])
         lines = self.table("map", self.machine, "--list", points, "--x", "frequency=45:50:3", *SIX, "--quantity", "amplitude")
@@ -298,6 +298,8 @@ class Refusals(Case):
                 ("error is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity error"),
                 ("peak is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --quantity peak"),
                 ("--periods: not expected", f"--x {CLEARANCE}=0:1e-4:3 --method rk4 --periods 2 {usual}"),
+                ("--tolerance: chooses the harmonics", f"--x {CLEARANCE}=0:1e-4:3 --harmonics 6 --tolerance 1e-3 {usual}"),
+                ("one value is KEY=A:A:1", f"--x {CLEARANCE}=0:1e-4:1 {usual}"),
                 ("rk8pd", f"--x {CLEARANCE}=0:1e-4:3 --method euler {usual}"),
                 ("--threads 0", f"--x {CLEARANCE}=0:1e-4:3 --threads 0 {usual}")]:
             self.refused_map(words, text)
@@ -309,6 +311,11 @@ class Refusals(Case):
         self.refused_map("no such file", "--list none.tsv --frequency 45 --quantity amplitude")
         self.file("list.tsv", "bearing.colour\n1\n")
         self.refused_map("is not a known key", "--list list.tsv --frequency 45 --quantity amplitude")
+        for cell in ["+0.05", "n/a"]:
+            self.file("list.csv", f"frequency,rotor.unbalance_kg_m\n45,{cell}\n45,0.05\n")
+            self.refused_map("has no column rotor.unbalance_kg_m of numbers", "--list list.csv --quantity amplitude")
+        self.file("list.csv", "frequency,frequency\n45,46\n")
+        self.refused_map("has the column frequency twice", "--list list.csv --quantity amplitude")
         self.refused_map("--y: not together", f"--list list.tsv --y {CLEARANCE}=0:1:2 --frequency 45 --quantity force")
 
     def test_a_table_of_another_map(self):
@@ -317,6 +324,9 @@ class Refusals(Case):
         part = self.file("part.tsv", "".join(f"{line}\n" for line in self.lines(*usual, "amplitude")))
         self.refused("other settings", *usual, "mean", "--resume", part)
         self.refused("other settings", *usual, "amplitude", "--samples", 64, "--resume", part)
+        rest = ["map", self.machine, "--x", "frequency=40:45:2", "--quantity", "regime"]
+        other = self.file("other.tsv", "".join(f"{line}\n" for line in self.lines(*rest, "--longest", 70)))
+        self.refused("other settings", *rest, "--resume", other)
         self.refused("holds other points", *usual, "amplitude", "--lines", "1:3", "--resume", part)
         self.refused("holds other points", *usual, "amplitude", "--lines", "0:2", "--resume", part)
         self.refused("no such file", *usual, "amplitude", "--resume", "none.tsv")
