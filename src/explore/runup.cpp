@@ -57,7 +57,8 @@ Exploration explore_runup(const RunUpRequest& request)
       constexpr int passages = 16;
       constexpr double smallest = 1e-4, near = 0.6;
       add_lines(lines, bearings, speed / angular(1),
-                lines_of_recorded(bearings, motion, near), passages, smallest);
+                lines_of_recorded(bearings, motion, near, 0.1 * smallest), passages,
+                smallest);
     };
   }
   const std::vector<motion::PassedTurn> all =

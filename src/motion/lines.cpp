@@ -77,6 +77,7 @@ struct Record {
   Eigen::MatrixXd left = samples;  ///< without the lines
   std::vector<double> bins = {};   ///< of the lines, that of the mean first
   Eigen::MatrixXd moments = {};    ///< weighted products of the columns with the samples
+  Eigen::MatrixXd normal = {};     ///< and with each other, below the diagonal
   Eigen::MatrixXd series = {};     ///< as of Eq. 9
 
   /** One more line, whose amplitude the next `fit` finds. */
@@ -98,7 +99,8 @@ struct Record {
   /** All amplitudes by weighted least squares, and what they leave. */
   void fit()
   {
-    series = normal_matrix().ldlt().solve(moments).transpose();
+    extend_normal();
+    series = normal.ldlt().solve(moments).transpose();
     left = samples.rowwise() - series.col(0).transpose();
     for (std::size_t h = 1; h < bins.size(); ++h) {
       const Eigen::RowVector4d cosine = series.col(2 * h - 1), sine = series.col(2 * h);
@@ -148,12 +150,12 @@ struct Record {
     return sum / (window_terms[0] * static_cast<double>(n));
   }
 
-  /** Weighted products of the columns 1, cos, sin, …, below the diagonal. */
-  Eigen::MatrixXd normal_matrix() const
+  /** By the columns 1, cos, sin, … of the lines that it does not have yet. */
+  void extend_normal()
   {
-    Eigen::MatrixXd matrix(moments.rows(), moments.rows());
-    const auto lines = std::ssize(bins);
-    for (Eigen::Index i = 0; i < lines; ++i)
+    const Eigen::Index known = (normal.rows() + 1) / 2, lines = std::ssize(bins);
+    normal.conservativeResize(moments.rows(), moments.rows());
+    for (Eigen::Index i = known; i < lines; ++i)
       for (Eigen::Index j = 0; j <= i; ++j) {
         const auto sum = 0.5 * window_at(bins[i] + bins[j]),
                    difference = 0.5 * window_at(bins[i] - bins[j]);
@@ -162,9 +164,8 @@ struct Record {
             sum.imag() + difference.imag(), difference.real() - sum.real();
         const Eigen::Index row = i == 0 ? 0 : 2 * i - 1, column = j == 0 ? 0 : 2 * j - 1;
         const Eigen::Index rows = i == 0 ? 1 : 2, columns = j == 0 ? 1 : 2;
-        matrix.block(row, column, rows, columns) = block.topLeftCorner(rows, columns);
+        normal.block(row, column, rows, columns) = block.topLeftCorner(rows, columns);
       }
-    return matrix;
   }
 };
 
@@ -189,10 +190,9 @@ std::vector<Peak> peaks_of(const Eigen::VectorXd& heights, double lowest)
 }  // namespace
 
 Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion,
-                        double near)
+                        double near, double least)
 {
   constexpr std::size_t most_lines = 200;
-  constexpr double least = 1e-6;  // of the largest line
   constexpr int most_rounds = 12, passages = 16;
   constexpr double side_lobe = 1e-4;                   // bins
   constexpr double apart = 1.5, apart_of_unnamed = 4;  // bins
