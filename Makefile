@@ -74,9 +74,10 @@ reader := figures/tables.py figures/project.py CMakeLists.txt data/claims.toml
 parameters = $(patsubst %,data/%$(if $(filter as-printed,$(*D)),-as-printed).toml, \
   $(shell sed -nE '/parameters = /s/[^"]*"([^"]*)"[^"]*/\1 /gp' data/scenes/$(*F).toml))
 
-$(call table,$(maps)): data/generated/%.tsv: studies/%.yaml studies/Snakefile build/explore
+$(call table,$(maps)): data/generated/%.tsv: studies/%.yaml $$(wildcard studies/$$*.py) studies/Snakefile data/set1.toml build/explore figures/tables.py
 	flock build/.snakemake snakemake --snakefile studies/Snakefile --profile studies/local $@
-$(call table,$(scripts),$(scripts)): data/generated/%.tsv: studies/$$(*F).py data/scenes/$$(*F).toml $$(parameters) build/explore figures/tables.py
+$(call table,$(scripts),$(scripts)): data/generated/%.tsv: studies/$$(*F).py data/scenes/$$(*F).toml $$(parameters) build/explore \
+  figures/tables.py figures/rotor_stator/__init__.py
 	$(whole) $(alone) $(PYTHON) $(wordlist 1,2,$^) $(filter as-printed,$(*D)) > $$new; mv $$new $@
 data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters)
 	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) > $$new; mv $$new $@
@@ -96,7 +97,7 @@ figures/generated/%.svg: figures/$$(*F).gp figures/style.gp figures/orbit_axes.g
 figures/generated/%.svg: figures/$$(*F).py figures/rotor_stator.mplstyle figures/tables.py figures/bearing_sketch.py figures/contact_map.py \
   data/claims.toml $$(source)
 	$(whole) $(PYTHON) $< $(source) $$new; mv $$new $@
-figures/generated/identification.svg: figures/claim_quantities.py figures/claim_ranges.py
+figures/generated/identification.svg: figures/claim_quantities.py figures/claim_ranges.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
 $(call figure,identification clearance_stiffness): data/set1.toml data/set2.toml data/set1-as-printed.toml
 $(call figure,$(maps)): figures/map.py data/set1.toml
 figures/generated/stability.svg: data/reference/attractors.tsv

@@ -114,11 +114,10 @@ def right(errors):
     return share(errors <= LIMITS["accurate"])
 
 
-def harmonics(errors):
-    """C3: smallest m whose error, {m: at each speed}, is small at all of them; none if it is infinite with every m at
-    more than half of the speeds."""
-    best = np.min(list(errors.values()), axis=0)
-    if share(np.isfinite(best)) < 0.5:
+def harmonics(errors, periodic):
+    """C3: smallest m whose error, {m: at each speed}, is small at all of them; none if a T-periodic motion attracts at
+    fewer than half of the speeds."""
+    if share(periodic) < 0.5:
         return None
     enough = [m for m in sorted(errors) if (errors[m] <= LIMITS["accurate"]).all()]
     return enough[0] if enough else NOT_ENOUGH

@@ -23,7 +23,7 @@ def quantities(first, second):
     arcs = [np.interp(f, rows["f"], rows["loaded_arc"]) for f, rows in zip(ARC_SPEEDS, (first, second))]
     one = {"C1": peak(first)[0]} if first.first("f_joint") == PAPER_PEAK else {}
     return one | {"C2": right(errors(first, 6)),
-                  "C3": harmonics({m: errors(middle(second), m) for m in JUDGED}),
+                  "C3": harmonics({m: errors(middle(second), m) for m in JUDGED}, middle(second)["periodic"] == 1),
                   "C4": low_permanent(first, f_loss, cage), "C5": middle_complex(first, cage),
                   "C6": high_rest(first), "C7": force_rise(first)[0], "C8": arcs[1] / arcs[0],
                   "C10": passes(first, cage), "C13": phases(second)[0]}

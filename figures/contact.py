@@ -1,4 +1,4 @@
-"""The balls' forces of `explore contact`: over two turns, in colour, white where a ball carries nothing; a panel for each
+"""The balls' forces of `explore contact`: over two base periods, in colour, white where a ball carries nothing; a panel for each
 bearing and, where the table knows it (`--columns all`), the largest stress below.
 
 Usage: /usr/bin/python3 figures/contact.py TABLE.tsv OUTPUT.svg
@@ -26,6 +26,7 @@ def draw_stress(axes, parts):
 
 
 def draw(table):
+    table.columns["t_over_T"] = table["t_over_T"] * table.turns_per_base()
     parts = {"": table}
     if "bearing" in table.columns:
         parts = {f"bearing {b:g}": table.where("bearing", b) for b in np.unique(table["bearing"])}
@@ -33,10 +34,11 @@ def draw(table):
     heights = [3] * len(parts) + [1.5] * has_stress
     figure, all_axes = plt.subplots(len(heights), figsize=(10, 2 + sum(heights)), sharex=True, squeeze=False, layout="constrained",
                                     height_ratios=heights)
+    most = table["Q"].max() or 1  # one colour is one force
     for axes, (name, part) in zip(all_axes.flat, parts.items()):
         force, ends = force_map(part)
         mesh = axes.pcolormesh(ends, np.arange(len(force) + 1) + 0.5, np.ma.masked_equal(force, 0), vmin=0,
-                               vmax=force.max() or 1, rasterized=True)  # cells of an SVG would show white seams
+                               vmax=most, rasterized=True)  # cells of an SVG would show white seams
         figure.colorbar(mesh, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
         axes.set(ylabel="ball j" + (", " + name if name else ""))
         axes.yaxis.set_major_locator(MaxNLocator(9, integer=True))

@@ -32,7 +32,7 @@ def draw(table):
     if is_small:
         paths = paths - mean
     phase = table["phase"][:instants]
-    quarter = np.argmin(abs(phase - np.pi / 2))
+    quarter = np.argmin(abs(phase * table.turns_per_base() - np.pi / 2))
 
     shown = np.unique(np.linspace(0, len(z) - 1, min(len(z), MOST_ORBITS)).round().astype(int))
     half = 0.55 * max(np.ptp(np.append(paths[..., axis], 0)) for axis in (0, 1)) or 1

@@ -60,7 +60,7 @@ def draw(table, measured=None):
         height = heights[body]
         shown = height > bottom
         if is_chaotic:
-            axes.plot(orders[shown], height[shown], "o", ms=2.5, mew=0, color=colour, alpha=0.5, label="continuous part")
+            axes.plot(orders[shown], height[shown], "o", ms=2.5, mew=0, color=colour, alpha=0.5, label="other lines and continuous part")
             axes.legend(loc="upper right", frameon=False, markerscale=2)
             shown &= is_above(orders, height) & [is_simple(name) for name in table["name"]]
         axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=1.3)

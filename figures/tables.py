@@ -124,6 +124,10 @@ class Table:
         hertz = self.value("frequency")
         return f"{hertz:g} Hz ({60 * hertz:.5g} rpm)"
 
+    def turns_per_base(self):
+        """Turns of the rotor in a base period; 1 where the table has no base period."""
+        return self.value("frequency") * self.value("base_period", 1 / self.value("frequency"))
+
     def regime_in_words(self):
         """", chaotic", ", periodic after 2 base periods"; nothing where the table has no regime."""
         regime, period = self.value("regime", ""), self.value("period", 1)

@@ -51,7 +51,7 @@ def close(rows):
 def harmonics_for(rows):
     """Smallest m that is close at all speeds, and smallest from which on all are."""
     fixed = rows.where("adaptive", 0)
-    if len(fixed) == 0:
+    if len(fixed) == 0 or (fixed["periodic"] == 0).any():  # where validity knows no such attractor it tries few m
         return -1, -1
     reached = {m: close(fixed.where("m", m)).all() for m in np.unique(fixed["m"]).astype(int)}
     first = next((m for m in reached if reached[m]), 0)
@@ -62,7 +62,7 @@ def harmonics_for(rows):
 def adaptive_for(rows):
     """Share of the speeds where the adaptive solution is close, and its largest m there."""
     chosen = rows.where("adaptive", 1)
-    if len(chosen) == 0:
+    if len(chosen) == 0 or (rows["periodic"] == 0).any():
         return -1, 0
     near = close(chosen)
     return near.mean(), int(chosen["m"][near].max(initial=0))

@@ -24,7 +24,7 @@ def draw(table):
     frequency, top = table["order"] * table["f"], amplitude.max()
     speeds = chosen_speeds(table["f"])
     low, high = table["f"].min(), table["f"].max()
-    step = (high - low) / max(1, min(len(speeds), 30)) * 1.6
+    step = (high - low) / max(1, min(len(speeds), 30)) * 1.6 or 0.05 * high
     decades = np.clip(np.log10(amplitude / top) / DECADES + 1, 0, 1)
     shown = np.isin(table["f"], speeds) & (decades > 0)
     axes.vlines(frequency[shown], table["f"][shown], table["f"][shown] + step * decades[shown], color="C0", lw=1)

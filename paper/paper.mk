@@ -1,7 +1,8 @@
 # Texts with the numbers of tables, pages, article, archive. `whole`, `table` and the lists are those of the Makefile.
 data/generated/article.tsv: paper/article_values.py paper/article_results.py figures/claims.py CITATION.cff studies/map_scaling.py $(judging) $(reader) data/scenes/validity.toml \
-  data/set1.toml data/set1-as-printed.toml paper/deviations.md $(call table,$(paper) $(beside) sensitivity_derivatives truth_intervals claims, \
-  fig03_response tab01_parameters) build/environment.txt build/explore $(wildcard data/reference/*.tsv data/rotors/*.toml data/live/*.toml)
+  data/set1.toml data/set1-as-printed.toml paper/deviations.md $(call table,$(paper) $(beside) sensitivity_derivatives truth_intervals, \
+  fig03_response tab01_parameters) $(claims) build/environment.txt build/explore $(wildcard data/reference/*.tsv data/reference/as-printed/*.tsv \
+  data/rotors/*.toml data/live/*.toml) data/set2.toml figures/rotor_stator/__init__.py
 	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 data/generated/deviations.md data/generated/article.md: data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 	$(whole) $(PYTHON) $^ > $$new; mv $$new $@

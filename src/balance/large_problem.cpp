@@ -123,12 +123,12 @@ void require_one_passage(const Parameters& parameters)
   const double first = passages_per_turn(parameters.bearing);
   for (const Bearing& bearing : parameters.further)
     if (std::abs(passages_per_turn(bearing) - first) > 1e-9)
-      throw BadInput(
-          format("%s: bearing: n*omega_cage/omega is %.9g at the first and %.9g at "
-                 "another one: more than two frequencies, which only --method "
-                 "gauss follows",
-                 parameters.file.c_str(), first / parameters.turns,
-                 passages_per_turn(bearing) / parameters.turns));
+      throw BadInput(format(
+          "%s: bearing: %.9g balls of the first and %.9g of another one pass in a turn, "
+          "and harmonic balance takes one number; leave out --method, --harmonics and "
+          "--lines",
+          parameters.file.c_str(), first / parameters.turns,
+          passages_per_turn(bearing) / parameters.turns));
 }
 
 }  // namespace

@@ -257,11 +257,13 @@ public:
   bool touches = false;
 
 private:
-  Eigen::VectorXd amplitude(const PeriodicMotion& motion)
+  /** Of x_s, y_s, x_r, y_r, whatever else a large body shows. */
+  Eigen::Vector4d amplitude(const PeriodicMotion& motion)
   {
-    return task_.has_two_frequencies
-               ? motion::half_peak_to_peak_of_torus(task_.machine, motion)
-               : half_peak_to_peak(body_series(task_.parameters, motion));
+    return (task_.has_two_frequencies
+                ? motion::half_peak_to_peak_of_torus(task_.machine, motion)
+                : half_peak_to_peak(body_series(task_.parameters, motion)))
+        .head<4>();
   }
 
   BranchStability multipliers_of(const Branch& branch, std::size_t number);

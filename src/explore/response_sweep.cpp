@@ -321,7 +321,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
     if (!at.reached)
       throw NoSolution(format("tolerance %g not reached: ", tolerance) + at.end);
     before = at.motion.x;
-    const Eigen::MatrixXd& bodies = at.motion.bodies;
+    const Eigen::MatrixXd bodies = at.motion.bodies.topRows<4>();  // x_s … y_r
     const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
     ResponseRow row{.frequency = frequency, .error = at.verdict.distance.larger()};
     std::ranges::copy(amplitude, row.amplitude.begin());

@@ -217,11 +217,12 @@ bool turns_visibly(const Parameters& parameters)
 void require_rotation_period(const Parameters& parameters, const char* who)
 {
   require_two_angles(parameters);
-  if (!has_rotation_period(parameters.bearing))
-    throw BadInput(format(
-        "%s: bearing.cage_speed_ratio: %s needs a force with the period of rotation, but "
-        "%.9g balls pass in a turn, not a whole number",
-        parameters.file.c_str(), who, passages_per_turn(parameters.bearing)));
+  for (const Bearing& bearing : bearings_of(parameters))
+    if (!has_rotation_period(bearing))
+      throw BadInput(format(
+          "%s: bearing.cage_speed_ratio: %s needs a force with the period of rotation, "
+          "but %.9g balls pass in a turn, not a whole number",
+          parameters.file.c_str(), who, passages_per_turn(bearing)));
 }
 
 bool is_bare(const Parameters& parameters)

@@ -180,7 +180,7 @@ Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& m
   constexpr double tolerance = 1e-5, most_steps = 1e6;
   constexpr int most_halvings = 8;
   const double period = 2 * std::numbers::pi / motion.omega;
-  const BallBearing bearing(parameters.bearing);
+  const BallBearing bearing(parameters.bearing, motion.omega, parameters.turns);
   const DisturbanceRates rates(parameters);
   const Eigen::MatrixXd series = motion.x.reshaped(2, motion.x.size() / 2),
                         speeds = motion.omega * differentiate(series);

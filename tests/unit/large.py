@@ -98,6 +98,22 @@ class Large(Case):
                     self.same(a, b, 1e-10, NAMES, FORCES)
                     self.assertEqual(*(self.said(table, "stability", "regime", "period") for table in (a, b)))
 
+    def test_a_branch_of_a_body_that_shows_more(self):
+        """Outputs beside x_s ... y_r: the arc begins at 0 and Newton's steps are few, the harmonics are those of the amplitude."""
+        own = self.file("shaft.toml", self.shaft(4, [(0, BEARING), (4, BEARING)], 0)[0])
+        branch = self.table("response", own, "--from", 40, "--to", 40.5, "--harmonics", 6, "--columns", "f,arc,newton")
+        self.assertEqual(branch["arc"][0], 0)
+        self.assertLess(branch["newton"].max(), 30)
+        sweep = self.table("response", own, "--from", 40, "--to", 40.5, "--count", 2, "--method", "aft", "--tolerance", 1e-2, "--harmonics-of", "x_r",
+                           "--columns", "f,error,x_r_1_re,x_r_1_im,amp_1X_x_r")
+        self.assertTrue((0 < sweep["error"]).all() and (sweep["error"] < 1e-2).all())
+        np.testing.assert_allclose(np.hypot(sweep["x_r_1_re"], sweep["x_r_1_im"]), sweep["amp_1X_x_r"], rtol=1e-6)
+
+    def test_the_period_is_that_of_all_bearings(self):
+        """Of the second one 3.2 balls pass in a turn."""
+        text = self.shaft(4, [(0, {**BEARING, "balls": 8, "cage": 0.375}), (4, {**BEARING, "balls": 8, "cage": 0.4})], 0)[0]
+        self.refused("3.2 balls pass in a turn", "orbit", self.file("shaft.toml", text), "--frequency", 45, "--method", "shooting")
+
     def test_unbalance_of_the_stator(self):
         """It alone excites; its period is the turn's, by harmonic balance as by integration."""
         text = self.paper_machine()
@@ -345,7 +361,7 @@ radial_clearance_m = {b["clearance"]}
         lines = self.table("spectrum", own, "--frequency", 60, "--harmonics", 20)
         self.assertEqual(lines["name"][0], "1X")
         other = self.file("other.toml", text.replace("cage_speed_ratio = 0.3\n", "cage_speed_ratio = 0.4\n"))
-        self.refused("more than two frequencies", "orbit", other, *speed, "--method", "aft")
+        self.refused("harmonic balance takes one number", "orbit", other, *speed, "--method", "aft")
         self.lines("orbit", other, *speed, "--method", "gauss", "--longest", 0.2)
 
     def test_resumed_with_other_matrices(self):

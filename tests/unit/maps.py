@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from tests.support.explore import MACHINE, NAMES, Case, Table
+from tests.support.explore import MACHINE, NAMES, Case, Table, changed
 
 CLEARANCE = "bearing.radial_clearance_m"
 SIX = ["--harmonics", 6]
@@ -210,6 +210,13 @@ class Values(Case):
         self.assertAlmostEqual(table["peak"][1] / branch["amp_x_r"][top], 1, delta=2e-3)
         self.assertAlmostEqual(table["peak_frequency"][1], branch["f"][top], delta=0.2)
         self.assertEqual(table["permanent"][1], 1)
+
+    def test_multipliers_along_the_harmonics_know_the_speed(self):
+        """Without contact the machine is linear: a seal by speed, and the multipliers of solution and motion are the same."""
+        self.file("seal.csv", "f,k_xx,k_xy,k_yx,k_yy,c_xx,c_yy\n0,0,0,0,0,0,0\n100,1e6,4e5,-4e5,1e6,2000,2000\n")
+        loose = changed(radial_clearance_m=1e-3, unbalance_kg_m=0.001) + "[bearing.parallel]\ncoefficients = 'seal.csv'\n"
+        table = self.table("map", self.file("seal.toml", loose), "--x", "frequency=45:45:1", "--quantity", "multiplier,series", *SIX)
+        self.assertAlmostEqual(table["series"][0], table["multiplier"][0], delta=1e-6)
 
     def test_list(self):
         """Rows of a table are points, or with --x lines: the same numbers as those of a grid."""
