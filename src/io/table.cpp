@@ -323,8 +323,8 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
       names_ = split(line, between_);
       auto sorted = names_;
       std::ranges::sort(sorted);
-      if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-        fail("has the column " + *twice + " twice");
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      if (twice != sorted.end()) fail("has the column " + *twice + " twice");
       continue;
     }
     lines_.push_back(number);
