@@ -170,8 +170,8 @@ class Evidence:
         top = rows["higher_harmonics"].argmax()
         other = share((rows["contact"] < 1) | (rows["turns"] != 1))
         plain = np.mean(rows["higher_harmonics"] + 1 - rows["contact"])
-        words = (f"higher harmonics and separation {100 * plain:.2g} % in the mean, {100 * value:.2g} % where a speed without rotating "
-                 f"contact counts 100 %; largest {100 * rows['higher_harmonics'][top]:.2g} % at "
+        counted = f", {100 * value:.2g} % where a speed without rotating contact counts 100 %" * (value != plain)
+        words = (f"higher harmonics and separation {100 * plain:.2g} % in the mean{counted}; largest {100 * rows['higher_harmonics'][top]:.2g} % at "
                  f"{rows['f'][top]:g} Hz, half the joint mode is {self.landmark('f_joint') / 2:.1f} Hz; "
                  f"rotor and stator touch at all times, and the contact rotates, at {100 * (1 - other):.0f} % of the high speeds; single balls may still lose it (C10)")
         if again > 0:
