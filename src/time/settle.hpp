@@ -11,7 +11,8 @@ section decide the kind of the motion, the first of these that holds:
 - `periodic`: one frequency drives, and the section, one point in each base period,
   repeats itself to 1e-6 of the vibration after K ≤ 16 of them, the smallest such K.
 - `chaotic`: λ > 2d, or λ > d after half of `longest`, and the growth does not fade: in
-  the last quarter it is at least e⁵, and more than the root of that in the quarter before.
+  the last quarter it is at least e⁵, and more than the root of that in the quarter
+  before.
 - `quasi-periodic`: two frequencies drive, λ + d < 0 and the transient is over (the motion
   follows them); or one drives, and |λ| ≤ d < 0.1/s after half of `longest`.
 - `undecided`: everything else, with the reason.
