@@ -430,8 +430,12 @@ function move() {
     put(ball, (at.left + at.right) / 2 + radius * Math.cos(angle), (at.top + at.bottom) / 2 - radius * Math.sin(angle));
     ball.style.fill = `color-mix(in srgb, var(--load) ${load.toFixed(0)}%, var(--idle))`;
   });
-  for (const [id, where] of [["time", turns % length], ["contact", turns % 2]])
-    shown.motion[id]?.cursor.setAttribute("transform", `translate(${shown.motion[id].X(where)})`);
+  // The contact map has the first two turns.
+  for (const [id, where, end] of [["time", turns % length, length], ["contact", turns % Math.max(2, length), 2]]) {
+    const cursor = shown.motion[id]?.cursor;
+    cursor?.setAttribute("transform", `translate(${shown.motion[id].X(Math.min(where, end))})`);
+    cursor?.setAttribute("visibility", where <= end ? "visible" : "hidden");
+  }
 }
 
 // Draws a panel over the turns, with the cursor that `move` moves.

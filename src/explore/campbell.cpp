@@ -71,20 +71,24 @@ Exploration explore_campbell(const CampbellRequest& request)
       request.to);
   const OperationBudget budget = budget_of(request, 60, parameters);
   const LinearMachine linear(parameters, budget);
-  const Eigen::MatrixXd& stiffness = linear.contact();
+  const Eigen::MatrixXd stiffness =
+      mean_contact_stiffness(parameters, matrices_of(parameters), angular(request.from));
+  const std::vector<Bearing> bearings = bearings_of(parameters);
   const auto columns = columns_of(request.critical);
   Table table(request.critical ? "Critical speeds of the linear machine"
                                : "Whirl frequencies against speed (Campbell)",
               columns);
   table.choose(request.columns, columns.size(), request.plot.has_value());
   describe(table, parameters);
-  for (Eigen::Index k = 0; k < stiffness.rows(); k += 2)
+  for (Eigen::Index k = 0; k < 2 * std::ssize(bearings); k += 2)
     table.row_line("bearing", {k / 2 + 1, stiffness(k, k), stiffness(k, k + 1),
                                stiffness(k + 1, k + 1)});
   table.note(
-      "row bearing: mean contact stiffness xx, xy, yy [N/m], 0: no contact at rest");
+      "row bearing: mean stiffness xx, xy, yy [N/m] of contact and elements beside it, at "
+      "--from; 0: no contact at rest");
+  if (parameters.bearing.damping > 0) table.note("damping of the contact is left out");
   std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
-  for (int number = 1; const Bearing& bearing : bearings_of(parameters)) {
+  for (int number = 1; const Bearing& bearing : bearings) {
     const double value = passages_per_turn(bearing);
     const auto is_same = [&](auto& one) { return std::abs(value - one.first) <= 1e-9; };
     const std::string tail = number == 1 ? "" : format("_%d", number);

@@ -172,10 +172,16 @@ Exploration explore_check(const CheckRequest& request)
         "natural, damped; the bearing's mean force over the cage's angle, "
         "linear where it carries the load");
     const double speed = mode.frequency / passages_per_turn(machine.bearing);
-    if (speed >= request.from && speed <= request.to)
+    if (!is_large && speed >= request.from && speed <= request.to)
       add("passage_" + name, speed, "Hz", "speed at which the passing balls meet it");
     if (mode.residual > well_solved) warn(doubt(mode.residual));
   }
+  if (is_large)
+    table.note(
+        "modes at rest; those of a turning rotor, and where the balls meet them: "
+        "campbell --critical");
+  if (machine.bearing.damping > 0)
+    table.note("damping of the contact is not in the modes");
   if (!machine.grounds.empty())
     table.note("f_s, f_r, contact_loss: of machines without elements to the ground");
   if (is_alone && machine.bearing.clearance >= 0)

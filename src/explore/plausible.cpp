@@ -130,7 +130,10 @@ void add_rotor(Doubts& all, const Parameters& machine)
 void add_sag(Doubts& all, const Parameters& machine)
 {
   const auto rest = vector_of(machine.bodies->static_start(machine));
-  double sag = rest.head(rest.size() / 2).cwiseAbs().maxCoeff();
+  /** The other coordinates of a large body are no displacements. */
+  const auto* large = dynamic_cast<const MatrixMachine*>(machine.bodies.get());
+  double sag =
+      rest.head(large ? large->bodies().shown : rest.size() / 2).cwiseAbs().maxCoeff();
   for (const Bearing& bearing : bearings_of(machine))
     sag -= std::max(0.0, bearing.clearance);
   all.add(sag > deepest,

@@ -39,7 +39,7 @@ motion::Lines lines_of(const MotionRequest& request, Computed& at, Table& table)
       "lines: least squares over %d base periods, window of Blackman and Harris, at most "
       "200; lines nearer than %.3g of the speed may be taken for one; unexplained: "
       "rms of the rest, in no line, over that about the mean",
-      turns, 4.0 / turns));
+      turns, 4.0 / (turns * found.turns_of_period)));
   table.value("unexplained", lines.rest, 2);
   return lines;
 }
@@ -105,9 +105,10 @@ Exploration explore_spectrum(const MotionRequest& asked)
   Computed at = computed(parameters, request, turns, table);
   if (request.method != "aft")
     table.note(
-        format("samples of shooting and time methods: %d per turn, orders up to %d; "
+        format("samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
                "higher ones are folded onto these",
-               request.points, request.points / 2));
+               request.points / at.found.turns_of_period,
+               request.points / at.found.turns_of_period / 2));
   const motion::Lines lines = lines_of(request, at, table);
   for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
     if (!at.found.has_statistics) table.value(name, lines.mean[k++]);

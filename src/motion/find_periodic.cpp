@@ -337,9 +337,12 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
     std::vector<Eigen::VectorXd> known = search.starts;
     bool is_known = false;        ///< whether the solution's own motion is
     bool is_settled = turns > 1;  ///< whether where the machine settles is
-    for (int m = first; turns * m <= most && !at.reached; m *= 2) {
+    const int each = search.parameters.turns;  // so that a turn has whole numbers
+    for (int least = first; turns * least <= most && !at.reached; least *= 2) {
+      const int m = (least + each - 1) / each * each;
       search.harmonics = m;
-      search.samples = std::min(default_samples(m), most_samples / turns);
+      const int samples = std::min(default_samples(m), most_samples / turns);
+      search.samples = (samples + each - 1) / each * each;
       bool is_thorough = m >= few && !is_known && !is_settled;
       if (is_thorough) try {
           known.push_back(settled_start(search, few));

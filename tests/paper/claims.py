@@ -82,10 +82,12 @@ class Quantities(unittest.TestCase):
         """Also where more harmonics have no solution somewhere: that decides nothing about fewer. Where most speeds
         have nothing that is T-periodic, no number is right and none is asked for."""
         errors = {6: np.array([0.2, 0.01]), 7: np.array([0.05, 0.1]), 8: np.array([np.inf, 0.01])}
-        self.assertEqual(quantities.harmonics(errors), 7)
-        self.assertEqual(quantities.harmonics({6: errors[6]}), quantities.NOT_ENOUGH)
-        self.assertIsNone(quantities.harmonics({6: np.array([0.01, np.inf, np.inf])}))
-        self.assertEqual(quantities.harmonics({6: np.array([0.01, 0.01, np.inf])}), quantities.NOT_ENOUGH)
+        both, one, two = np.array([1, 1]), np.array([1, 0, 0]), np.array([1, 1, 0])
+        self.assertEqual(quantities.harmonics(errors, both), 7)
+        self.assertEqual(quantities.harmonics({6: errors[6]}, both), quantities.NOT_ENOUGH)
+        self.assertIsNone(quantities.harmonics({6: np.array([0.01, np.inf, np.inf])}, one))
+        self.assertEqual(quantities.harmonics({6: np.array([0.01, 0.01, np.inf])}, two), quantities.NOT_ENOUGH)
+        self.assertEqual(quantities.harmonics({6: np.array([np.inf, np.inf])}, both), quantities.NOT_ENOUGH)
 
     def test_a_speed_without_a_periodic_motion_is_not_right(self):
         self.assertEqual(quantities.right(np.array([0.01, 0.2, np.inf, 0.1])), 0.5)

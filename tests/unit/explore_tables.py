@@ -137,6 +137,14 @@ class Branch(Case):
             for name in AMPLITUDES:
                 self.assertAlmostEqual(table[name][k] / (np.ptp(exact[name[4:]]) / 2), 1, delta=3e-3)
 
+    def test_harmonics_of_a_motion_of_several_turns_can_be_asked_again(self):
+        """With n c = 63/8: as many as a tolerance chose give the same solution."""
+        own = self.file("own.toml", changed(cage_speed_ratio=0.4921875))
+        run = ["orbit", own, "--frequency", 45, "--no-stability"]
+        chosen = self.table(*run, "--method", "aft", "--tolerance", 1e-2)
+        again = self.table(*run, "--harmonics", int(chosen.value("harmonics")), "--samples", int(chosen.value("samples")))
+        np.testing.assert_allclose(again["x_r"], chosen["x_r"], atol=1e-9 * abs(chosen["x_r"]).max())
+
     def test_a_sweep_goes_on_after_the_seconds_that_it_may_take(self):
         """The rows of an interrupted sweep and those that --resume adds are the rows of the whole one. Would catch a row that
         the clock has changed; the footer says whether anything touches."""
