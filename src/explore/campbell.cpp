@@ -84,8 +84,8 @@ Exploration explore_campbell(const CampbellRequest& request)
     table.row_line("bearing", {k / 2 + 1, stiffness(k, k), stiffness(k, k + 1),
                                stiffness(k + 1, k + 1)});
   table.note(
-      "row bearing: mean stiffness xx, xy, yy [N/m] of contact and elements beside it, at "
-      "--from; 0: no contact at rest");
+      "row bearing: mean stiffness xx, xy, yy [N/m] of contact and elements beside it, "
+      "at --from; 0: no contact at rest");
   if (parameters.bearing.damping > 0) table.note("damping of the contact is left out");
   std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
   for (int number = 1; const Bearing& bearing : bearings) {

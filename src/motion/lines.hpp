@@ -46,8 +46,8 @@ Lines lines_of_closed(const Motion& motion, double turns);
 /** Of a motion recorded over many turns: its peaks, then all amplitudes together by least
     squares, weighted by a window of Blackman and Harris, then the peaks of what is left,
     until none is above `least` of the largest. A peak within `near` of the resolution,
-    one over the number of turns, of a frequency of the machine is taken to be there. At most
-    200 lines. */
+    one over the number of turns, of a frequency of the machine is taken to be there. At
+    most 200 lines. */
 Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion,
                         double near = 0.2, double least = 1e-6);
 
