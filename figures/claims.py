@@ -135,7 +135,7 @@ class Evidence:
 
     def harmonics_in_transition(self):
         periodic, inside = self.periodic(2), self.in_transition(2)
-        value = harmonics({m: self.errors(2, m)[inside] for m in range(1, MOST_HARMONICS + 1)}, self.periodic(2)[inside])
+        value = harmonics({m: self.errors(2, m)[inside] for m in range(1, MOST_HARMONICS + 1)}, periodic[inside])
         outside = right(self.errors(2, 10)[periodic & ~inside])
         return value, (f"{'cannot be tested where it is made' if value is None else named(value)}: a T-periodic motion attracts at "
                        f"{np.sum(periodic & inside)} of {np.sum(inside)} speeds of the transition; at the {np.sum(periodic & ~inside)} "
@@ -170,7 +170,7 @@ class Evidence:
         top = rows["higher_harmonics"].argmax()
         other = share((rows["contact"] < 1) | (rows["turns"] != 1))
         plain = np.mean(rows["higher_harmonics"] + 1 - rows["contact"])
-        counted = f", {100 * value:.2g} % where a speed without rotating contact counts 100 %" * (value != plain)
+        counted = f", {100 * value:.2g} % where a speed without rotating contact counts 100 %" if value != plain else ""
         words = (f"higher harmonics and separation {100 * plain:.2g} % in the mean{counted}; largest {100 * rows['higher_harmonics'][top]:.2g} % at "
                  f"{rows['f'][top]:g} Hz, half the joint mode is {self.landmark('f_joint') / 2:.1f} Hz; "
                  f"rotor and stator touch at all times, and the contact rotates, at {100 * (1 - other):.0f} % of the high speeds; single balls may still lose it (C10)")

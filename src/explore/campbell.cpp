@@ -70,9 +70,8 @@ Exploration explore_campbell(const CampbellRequest& request)
                                                         .largest = largest_linear}),
       request.to);
   const OperationBudget budget = budget_of(request, 60, parameters);
-  const LinearMachine linear(parameters, budget);
-  const Eigen::MatrixXd stiffness =
-      mean_contact_stiffness(parameters, matrices_of(parameters), angular(request.from));
+  const LinearMachine linear(parameters, budget, request.from);
+  const Eigen::MatrixXd& stiffness = linear.contact();
   const std::vector<Bearing> bearings = bearings_of(parameters);
   const auto columns = columns_of(request.critical);
   Table table(request.critical ? "Critical speeds of the linear machine"
@@ -88,11 +87,11 @@ Exploration explore_campbell(const CampbellRequest& request)
       "at --from; 0: no contact at rest");
   if (parameters.bearing.damping > 0) table.note("damping of the contact is left out");
   std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
-  for (int number = 1; const Bearing& bearing : bearings) {
+  for (std::size_t number = 0; const Bearing& bearing : bearings) {
     const double value = passages_per_turn(bearing);
     const auto is_same = [&](auto& one) { return std::abs(value - one.first) <= 1e-9; };
-    const std::string tail = number == 1 ? "" : format("_%d", number);
-    if (std::ranges::none_of(orders, is_same)) orders.emplace_back(value, "BPFO" + tail);
+    if (std::ranges::none_of(orders, is_same))
+      orders.emplace_back(value, numbered("BPFO", number));
     ++number;
   }
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});

@@ -109,8 +109,8 @@ Exploration explore_check(const CheckRequest& request)
   };
   const std::string at_end = format("at %g Hz", request.to);
   for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
+    const std::string tail = numbered("", b);
     const Rest& rest = rests[b++];
-    const std::string tail = b == 1 ? "" : format("_%zu", b);
     const KinematicOrders orders = kinematic_orders(bearing);
     /** What is below rounding of the mean over the cage's angles is none. */
     const auto seen = [&](double u) {

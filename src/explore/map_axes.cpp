@@ -72,10 +72,7 @@ Grid grid_of(const MapRequest& request)
   if (!request.list && request.x.empty() && request.y.empty())
     throw BadInput("--x: is missing; give --x, --y or --list");
   Grid grid{read_axis("--x", request.x), read_axis("--y", request.y)};
-  if (request.list) {
-    grid.list.emplace(*request.list);
-    for (const std::string& name : grid.list->names()) grid.list->at(0, name);
-  }
+  if (request.list) grid.list.emplace(*request.list);
   read_lines(request.lines, grid);
   auto keys = grid.keys();
   std::ranges::sort(keys);

@@ -174,7 +174,7 @@ public:
     const Measures measures(name, machine_);
     if (is_balance()) {
       const double omega = solution().omega;
-      const auto [points, periods] = measures.recording(based_.machine, omega, instants);
+      const int points = measures.recording(based_.machine, omega, instants).points;
       const motion::Motion record = motion::motion_of(solution(), points);
       const double step = angular(1) / (omega * points);
       return measures.of({based_.machine, record, step, frequency_, true}).at(0);

@@ -173,9 +173,6 @@ std::vector<Measure> measures_of(const Parameters& machine)
       {"x_s", 0}, {"y_s", 1}, {"x_r", 2}, {"y_r", 3}};
   for (const auto& output : machine.bodies->outputs()) places.push_back(output);
   const std::vector<Bearing> bearings = bearings_of(machine);
-  const auto numbered = [](const char* name, int b) {
-    return name + (b == 0 ? "" : format("_%d", b + 1));
-  };
   std::vector<Measure> all;
   for (const What& what : whats) {
     const std::string name = what.name, meaning = what.meaning;
@@ -230,8 +227,14 @@ Measures::Measures(const std::string& names, const Parameters& machine,
     const auto found = std::ranges::find_if(all, is_named);
     if (found == all.end() || (found->what.empty() && !at_instants)) continue;
     all_.push_back(*found);
-    columns_.push_back(found->column);
   }
+}
+
+std::vector<Column> Measures::columns() const
+{
+  std::vector<Column> columns;
+  for (const Measure& one : all_) columns.push_back(one.column);
+  return columns;
 }
 
 bool Measures::needs_whole() const

@@ -58,8 +58,8 @@ public:
   Measures(const std::string& names, const Parameters& machine,
            const std::vector<Column>& known = {}, bool at_instants = false);
 
-  bool empty() const { return columns_.empty(); }
-  const std::vector<Column>& columns() const { return columns_; }
+  bool empty() const { return all_.empty(); }
+  std::vector<Column> columns() const;
 
   /** Whether any is of the whole motion, not of its instants. */
   bool needs_whole() const;
@@ -74,7 +74,6 @@ public:
 
 private:
   std::vector<Measure> all_;
-  std::vector<Column> columns_;
 };
 
 /** Those of a table, with their columns, whose rows have the values in `measured`. */

@@ -38,6 +38,9 @@ public:
   explicit LinearMachine(const Parameters& parameters, const OperationBudget& budget = {},
                          double speed = 0);
 
+  /** S, 2b x 2b [N/m]. */
+  const Eigen::MatrixXd& contact() const { return contact_; }
+
   /** The modes at a speed [Hz] that oscillate, with less than 0.95 of the critical
       damping, of lowest frequency, ascending, at most so many. Throws NoSolution where
       the budget does not pay for them. */

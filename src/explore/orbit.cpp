@@ -325,17 +325,17 @@ Exploration explore_orbit(const MotionRequest& request)
     throw BadInput(format("--periods %d: %d points are at most %d rows", request.periods,
                           request.points, most_rows));
   const std::size_t bearings = 1 + parameters.further.size();
-  for (std::size_t b = 2; b <= bearings; ++b)
-    for (const char* axis : {"x", "y"})
+  for (std::size_t b = 1; b < bearings; ++b)
+    for (const char* name : {"F_x", "F_y"})
       columns.push_back(
-          {format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator"});
+          {numbered(name, b), "N", "Eq. 6, of that bearing, on the stator"});
   const auto outputs = parameters.bodies->outputs();
   for (const auto& [name, place] : outputs)
     columns.push_back({name, "m", "of a body given by matrices"});
   const std::size_t usual = columns.size();
   columns.push_back(time_column);
   const Measures measures(request.columns, parameters, {}, true);
-  columns.insert(columns.end(), measures.columns().begin(), measures.columns().end());
+  for (const Column& one : measures.columns()) columns.push_back(one);
   Table table(request.periods == 1
                   ? "Orbit of rotor and stator over one period"
                   : format("Orbit of rotor and stator over %d periods", request.periods),

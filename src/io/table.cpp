@@ -358,6 +358,12 @@ double NumberTable::at(std::size_t row, const std::string& column) const
   return rows_.at(row).at(static_cast<std::size_t>(found - names_.begin()));
 }
 
+const std::vector<double>& NumberTable::row(std::size_t k) const
+{
+  if (!words_.empty()) fail("has no column " + *words_.begin() + " of numbers");
+  return rows_.at(k);
+}
+
 const std::string& NumberTable::header(const std::string& key) const
 {
   const auto found = header_.find(key);

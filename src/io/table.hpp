@@ -216,7 +216,8 @@ public:
 
   const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return rows_.size(); }
-  const std::vector<double>& row(std::size_t k) const { return rows_.at(k); }
+  /** Throws BadInput if one of its columns has words. */
+  const std::vector<double>& row(std::size_t k) const;
 
   /** Throws BadInput if there is no such column of numbers. */
   double at(std::size_t row, const std::string& column) const;

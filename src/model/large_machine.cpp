@@ -319,8 +319,7 @@ LargeBodies Assembly::assembled(double spring) const
   constexpr const char* names[] = {"x_s", "y_s", "x_r", "y_r"};
   for (std::size_t b = 1; b < bearings; ++b)
     for (int k = 0; k < 4; ++k)
-      machine.outputs.emplace_back(format("%s_%zu", names[k], b + 1),
-                                   machine.places[b][k]);
+      machine.outputs.emplace_back(numbered(names[k], b), machine.places[b][k]);
   for (int body : {0, 1})
     for (std::size_t axis = 0; axis < bodies[body].output.size(); ++axis)
       machine.outputs.emplace_back(std::string(names[2 * body + axis]) + "_out",

@@ -187,6 +187,11 @@ std::vector<Bearing> bearings_of(const Parameters& parameters)
   return list;
 }
 
+std::string numbered(const std::string& name, std::size_t b)
+{
+  return b == 0 ? name : format("%s_%zu", name.c_str(), b + 1);
+}
+
 std::vector<Bearing> joints_of(const Parameters& parameters)
 {
   std::vector<Bearing> list = bearings_of(parameters);
@@ -325,7 +330,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   for (std::size_t k = 0; k < bearings.size(); ++k) {
     const Bearing& one = bearings[k];
     const auto put = [&](const char* key, const Cell& value) {
-      table.value(k == 0 ? key : format("%s_%zu", key, k + 1), value);
+      table.value(numbered(key, k), value);
     };
     if (!one.is_damaged(Defect::Surface::none)) put("defect", surface_of(one.defect));
     put("balls", one.balls);

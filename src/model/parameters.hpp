@@ -225,6 +225,9 @@ void require_two_masses(const Parameters& parameters, const char* who);
 std::vector<Bearing> bearings_of(const Parameters& parameters);
 std::vector<Bearing> joints_of(const Parameters& parameters);
 
+/** A name of what belongs to bearing b, counted from 0: name, name_2, … */
+std::string numbered(const std::string& name, std::size_t b);
+
 /** The same of all that is between two masses, and between them and the ground. */
 inline bool has_elastic_hertz_alone(const Parameters& parameters)
 {
