@@ -13,6 +13,7 @@ import numpy as np
 from scipy.io import mmread
 
 from tests.truth.independent import Model, displacements, errors
+from tests.unit.shaft import two_disks
 from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed, some
 
 CASES = Path("tests/cases").resolve()
@@ -60,7 +61,7 @@ class Cases(Case):
         tolerance."""
         table = self.asked("orbit", name, "--frequency", frequency, "--tolerance", tolerance,
                            "--periods", turns, "--points", 64)
-        theirs = model_of(machine(name), frequency).settled(math.ceil(60 * frequency), turns, 64)
+        theirs = model_of(machine(name), frequency).settled(turns, 64)
         for key, error in zip(("error_largest", "error_rms"), errors(displacements(table), theirs)):
             self.assertLessEqual(table.value(key), tolerance)
             self.assertLessEqual(error, factor * max(table.value(key), 1e-5), (name, key))
@@ -101,11 +102,9 @@ class Cases(Case):
         """A measured spectrum in the forms of spreadsheets draws the same figure; lists and
         nodes of our own CSV give the same rows."""
         plain = "f\tamplitude\n50\t1e-7\n179.2\t1.5e-6\n"
-        forms = {"plain": plain, "windows": plain.replace("\n", "\r\n"),
-                 "mark": "\ufeff" + plain, "comma": plain.replace("\t", ","),
-                 "open end": plain.replace("\t", ",")[:-1],
-                 "decimal comma": plain.replace("\t", ";").replace(".", ","),
-                 "quotes": plain.replace("\t", ",").replace("f,", '"f",')}
+        forms = {"plain": plain, "mark, windows": "\ufeff" + plain.replace("\n", "\r\n"),
+                 "quotes, comma, open end": plain.replace("\t", ",").replace("f,", '"f",')[:-1],
+                 "decimal comma": plain.replace("\t", ";").replace(".", ",")}
         spectrum = ["spectrum", self.machine, "--frequency", 45, "--harmonics", 6,
                     "--plot", "s.svg", "--overlay"]
         figures = {}
@@ -206,32 +205,28 @@ rotor_dofs = [1, 2]
     def test_one_word_for_a_kind(self):
         """3.585 balls pass in a turn: two frequencies with the unbalance, one without
         it."""
-        for name, regime, period in [("motor", "quasi-periodic", -1),
-                                     ("motor_balanced", "periodic", 1)]:
+        balanced = changed(machine("motor").read_text(encoding="utf-8"), unbalance_kg_m=0)
+        for name, regime, period in [(machine("motor"), "quasi-periodic", -1),
+                                     (self.file("balanced.toml", balanced), "periodic", 1)]:
             for method in ("auto", "aft", "rk4", "rk8"):
                 with self.subTest(name=name, method=method):
-                    table = self.asked("orbit", name, "--frequency", 50, "--method",
-                                         method)
+                    table = self.table("orbit", name, "--frequency", 50, "--method", method)
                     self.assertEqual((table.value("regime"), table.value("stability")),
                                      (regime, "stable"))
-            table = self.asked("attractors", name, "--from", 50, "--to", 51,
-                                  "--count", 2, "--starts", 1)
+            table = self.table("attractors", name, "--from", 50, "--to", 51, "--count", 2, "--starts", 1)
             self.assertEqual(list(table["period"]), [period, period])
             self.assertTrue((table["lyapunov"] < 0).all())
 
     def test_rest_is_one_motion(self):
-        """Disturbances decay by exp(-xi omega_0 t)."""
-        for name, speeds in [("jeffcott_at_rest", (10, 30, 50)), ("set1_at_rest", (45,))]:
+        still = self.file("still.toml", changed(unbalance_kg_m=0, acceleration_m_per_s2=0))
+        for name, speeds in [(machine("jeffcott_at_rest"), (10, 30, 50)), (still, (45,))]:
             for speed in speeds:
                 with self.subTest(name=name, speed=speed):
-                    table = self.asked("orbit", name, "--frequency", speed)
+                    table = self.table("orbit", name, "--frequency", speed)
                     self.assertEqual((table.value("regime"), table.value("stability")),
                                      ("rest", "stable"))
                     self.assertEqual(max(abs(table[of]).max() for of in ("x_r", "y_r")),
                                      0)
-                    if "multiplier" in table.keys() and name == "jeffcott_at_rest":
-                        decay = math.exp(-0.02 * 628.318530717959 * table.value("base_period"))
-                        self.assertAlmostEqual(table.value("multiplier"), decay, delta=1e-4)
         table = self.asked("attractors", "jeffcott_at_rest", "--from", 10, "--to", 50,
                               "--count", 3)
         self.assertEqual(list(table["f"]), [10, 30, 50])
@@ -267,7 +262,7 @@ class Measures(Case):
     def test_measures_of_a_linear_shaft(self):
         """A shaft on its supports, its disk unbalanced: the receptance of its matrices at
         the other disk gives all measures, by every command."""
-        self.lines("shaft", machine("friswell_shaft"), "--to", "shaft")
+        self.lines("shaft", self.file("shaft.toml", two_disks(6, 1e6, 1e6)), "--to", "shaft")
         k = mmread(self.folder / "shaft/K.mtx").toarray()  # damps the fast modes too
         entries = [f"{i + 1} {j + 1} {3e-5 * k[i, j]!r}" for i, j in np.argwhere(k)]
         self.file("shaft/C.mtx", "\n".join([
@@ -324,7 +319,7 @@ class Measures(Case):
         same in every command."""
         names = ["amp_x_r", "rms_v_x_r", "amp_1X_x_r", "iso_x_r", "rms_a_x_r"]
         turns, points = 256, 256
-        x = model_of(machine("motor"), 50).settled(3000, turns, points)[:, 2]
+        x = model_of(machine("motor"), 50).settled(turns, points)[:, 2]
         n, step = len(x), 1 / (50 * points)
         window = 1 - np.cos(2 * np.pi * np.arange(n) / n)
         lines = np.fft.rfft((x - x.mean()) * window)
@@ -426,11 +421,8 @@ class Uncertainties(Case):
                            stiffness="3e8\ncontact_damping_s_per_m = 0.69")
         own = self.file("rollers.toml", text)
         usual, exact = (self.table("orbit", own, "--frequency", 57.6, *how) for how in ([], ["--tolerance", 1e-6]))
-        one, other = (np.array([table[name] for name in NAMES]) for table in (usual, exact))
-        off = one - other
-        self.assertLessEqual(abs(off).max() / abs(other).max(), 1.1 * usual.value("error_largest"))
-        of_vibration = [np.linalg.norm(q - q.mean(axis=1, keepdims=True)) for q in (off, other)]
-        self.assertLessEqual(of_vibration[0] / of_vibration[1], 1.1 * usual.value("error_rms"))
+        for key, error in zip(("error_largest", "error_rms"), errors(displacements(usual), displacements(exact))):
+            self.assertLessEqual(error, 1.1 * usual.value(key))
 
     def test_measures_along_a_branch_resolve_the_contact(self):
         """Set 1 at 1.5 Hz, where the contact vibrates some hundred times in a turn."""
@@ -481,5 +473,3 @@ class Speeds(Case):
                 ("map", ["--x", "frequency=45:46:2", "--quantity", "mean"], ["--x", "frequency=2700rpm:2760rpm:2", "--quantity", "mean"])):
             self.assertEqual(*(self.rows(command, self.machine, *asked) for asked in (hertz, rpm)))
         self.refused("--to 50: is in Hz, the other end in rpm", "response", self.machine, "--from", "2700rpm", "--to", 50)
-        self.refused("--from 0: must be a positive speed", "response", self.machine, "--from", 0, "--to", 50)
-        self.refused("in Hz, or as 1500rpm", "orbit", self.machine, "--frequency", "45 rps")

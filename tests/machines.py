@@ -164,6 +164,11 @@ def value_text(value):
     return str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else repr(value)
 
 
+def table(name, **keys):
+    """The text of a table: table("rotor", mass_kg=2)."""
+    return f"[{name}]\n" + "".join(f"{key} = {value_text(value)}\n" for key, value in keys.items())
+
+
 def entries(machine, title="random"):
     """The lines of the parameter file: [table, key, value as text]."""
     return [["", "title", f'"{title}"'],

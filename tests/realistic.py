@@ -5,45 +5,22 @@ after a start from rest is agrees with an integrator that shares no code with sr
 A motion that closes, or that two frequencies drive, is compared instant by instant, best
 of the shifts by whole base periods; where that fails it must be continued, from its state
 at t = 0, by the judge. A chaotic one is compared by mean and rms. A machine on which the
-judge contradicts itself does not count. One row a machine; status 1 where less is
-answered, decided or right than is asked.
-
-Usage, from the root of the project: python3 -m tests.realistic [COUNT] [SEED]   (10 machines, seed 1)
+judge contradicts itself does not count. COUNT machines (10) of the seed SEED (1).
 """
 import os
 import random
-import subprocess
-import sys
-import tempfile
-import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 
 from tests.truth.independent import NAMES, POINTS, Model, displacements, errors, state_at_zero
 from tests.machines import entries, realistic_machine, written
-from tests.support.explore import EXPLORE, NO_NUMBER, Table
+from tests.support.explore import NO_NUMBER, Case, Table
 
+COUNT, SEED = (int(os.environ.get(name, usual)) for name, usual in (("COUNT", 10), ("SEED", 1)))
 TOLERANCE = 1e-3  # to which a motion must be right where it prints a smaller error
 FOLLOWED = 256    # base periods through which a printed state must be continued
 THIN = 64         # instants of each that are compared then
-LONGEST = 300     # of a command [s]
-COLUMNS = ("name f status regime period judge judge_period judge_exponent agree "
-           "difference allowed seconds note")
-
-
-def ask(command, file, *options):
-    """Status, output and seconds of a command; the status is 4 where it printed something
-    that is no number, 5 where it did not end."""
-    start = time.monotonic()
-    try:
-        result = subprocess.run([EXPLORE, command, file, *map(str, options)],
-                                capture_output=True, text=True, timeout=LONGEST)
-    except subprocess.TimeoutExpired:
-        return 5, "", LONGEST
-    status = 4 if NO_NUMBER.search(result.stdout) else result.returncode
-    return status, result.stdout, time.monotonic() - start
 
 
 def allowed(keys):
@@ -75,31 +52,6 @@ def compared(rows, keys, judged):
     return ("yes" if best[0] <= best[1] else "no"), *best
 
 
-def followed(file, frequency, rows, keys, model):
-    """The same where the judge starts from the printed state."""
-    closed, chaotic = keys["regime"] == "periodic", keys["regime"] == "chaotic"
-    first = turn_with(keys.get("cage_angle", 0), model) if chaotic else 0
-    state = state_at_zero(rows, model.base * len(rows) / POINTS)
-    if not closed:
-        state[4:] = np.polynomial.polynomial.polyfit(np.arange(9), rows[:9], 8)[1] * POINTS / model.base
-    judged = model.from_state(state, first, FOLLOWED, THIN)
-    if judged.kind != keys["regime"]:
-        return "no", np.inf, 1
-    if chaotic:
-        return statistics_agree(keys, judged)
-    if closed:
-        thin = rows[:: POINTS // THIN]
-        printed = np.tile(thin, (FOLLOWED * THIN // len(thin) + 1, 1))[: FOLLOWED * THIN]
-    else:
-        turns = ["--periods", FOLLOWED, "--points", THIN]
-        status, text, _ = ask("orbit", file, "--frequency", frequency, *turns)
-        if status:
-            return "no", np.inf, 1
-        printed = displacements(Table.of(text))
-    difference, most = worse(printed, judged.rows, keys)
-    return ("yes" if difference <= most else "no"), difference, most
-
-
 def statistics_agree(keys, judged):
     """Chaos: the share of the eight numbers, mean and rms of each displacement, that
     differ by more than 4 standard errors and 5 % of the largest rms. None should, one in
@@ -114,89 +66,65 @@ def statistics_agree(keys, judged):
     return ("yes" if np.mean(wrong) <= 0.05 else "no"), np.mean(wrong), 0.05
 
 
-def answer(name, machine, frequency, folder):
-    """What explore says by default, one question after the other."""
-    file = Path(folder, f"{name}.toml")
-    file.write_text(written(entries(machine, name)), encoding="utf-8")
-    status, text, seconds = ask("orbit", file, "--frequency", frequency, "--points",
-                                POINTS)
-    keys, notes = Table.of(text).keys() if status == 0 else {}, []
-    for command in ("contact", "spectrum"):
-        other, printed, _ = ask(command, file, "--frequency", frequency)
-        if other == 0 and Table.of(printed).keys().get("regime") != keys.get("regime"):
-            notes.append(f"{command} has another regime")
-        status = status or other
-    return {"name": name, "file": file, "machine": machine, "f": frequency,
-            "status": status, "keys": keys, "text": text,
-            "seconds": seconds, "notes": notes}
+class Realistic(Case):
+    def asked(self, command, file, frequency, *options):
+        """What explore says by default."""
+        result = self.run_explore(command, file, *(["--frequency", frequency] if frequency else []), *options, timeout=300)
+        self.assertEqual((result.returncode, NO_NUMBER.search(result.stdout)), (0, None), (file, result.stderr))
+        return Table.of(result.stdout)
 
+    def followed(self, case, rows, keys, model):
+        """The same where the judge starts from the printed state."""
+        closed, chaotic = keys["regime"] == "periodic", keys["regime"] == "chaotic"
+        first = turn_with(keys.get("cage_angle", 0), model) if chaotic else 0
+        state = state_at_zero(rows, model.base * len(rows) / POINTS)
+        if not closed:
+            state[4:] = np.polynomial.polynomial.polyfit(np.arange(9), rows[:9], 8)[1] * POINTS / model.base
+        judged = model.from_state(state, first, FOLLOWED, THIN)
+        if judged.kind != keys["regime"]:
+            return "no", np.inf, 1
+        if chaotic:
+            return statistics_agree(keys, judged)
+        if closed:
+            thin = rows[:: POINTS // THIN]
+            printed = np.tile(thin, (FOLLOWED * THIN // len(thin) + 1, 1))[: FOLLOWED * THIN]
+        else:
+            printed = displacements(self.asked("orbit", *case, "--periods", FOLLOWED, "--points", THIN))
+        difference, most = worse(printed, judged.rows, keys)
+        return ("yes" if difference <= most else "no"), difference, most
 
-def verdict(case):
-    """The row of a machine."""
-    model, keys, notes = Model(case["machine"], case["f"]), case["keys"], case["notes"]
-    judged, regime = model.from_rest(), keys.get("regime", "-")
-    agree, difference, most = "no", np.nan, np.nan
-    if not model.two and abs(keys.get("base_period", 0) / model.base - 1) > 1e-9:
-        notes.append("another base period")
-    if regime == "undecided":
-        agree = "undecided"
-    elif regime in ("periodic", "quasi-periodic", "chaotic"):
-        rows = displacements(Table.of(case["text"]))
+    def verdict(self, case, machine):
+        """Yes, no, undecided or uncounted, and by how much the motion is off and may be."""
+        table, model = self.asked("orbit", *case, "--points", POINTS), Model(machine, case[1])
+        keys, judged, found = table.keys(), model.from_rest(), ("no", np.inf, 1)
+        regime = keys["regime"]
+        for command in ("contact", "spectrum"):
+            self.assertEqual(self.asked(command, *case).value("regime"), regime, case)
+        if not model.two:
+            self.assertAlmostEqual(keys["base_period"] / model.base, 1, delta=1e-9, msg=case)
+        if regime == "undecided":
+            return regime, 0, 0
+        rows = displacements(table)
         if regime != "chaotic":
-            agree, difference, most = compared(rows, keys, judged)
+            found = compared(rows, keys, judged)
         elif judged.kind == "chaotic":
-            agree, difference, most = statistics_agree(keys, judged)
-        if agree == "no":
-            again = followed(case["file"], case["f"], rows, keys, model)
-            if again[0] == "yes":
-                agree, difference, most = again
-                notes.append("another motion than the judge's from rest")
-    if agree == "no" and judged.kind in (None, "undecided", "overflow"):
-        agree = "uncounted"
-    kind = judged.kind or "/".join(judged.kinds) + f" {judged.own:.0e}"
-    values = [case["name"], case["f"], case["status"], regime, keys.get("period", "-"),
-              kind, judged.period, f"{judged.exponents[0]:.3g}", agree,
-              f"{difference:.3g}", f"{most:.3g}", f"{case['seconds']:.2f}",
-              "; ".join(notes) or "-"]
-    return dict(zip(COLUMNS.split(), values))
+            found = statistics_agree(keys, judged)
+        if found[0] == "no":
+            found = min(found, self.followed(case, rows, keys, model), key=lambda one: one[0] == "no")
+        uncounted = found[0] == "no" and judged.kind in (None, "undecided", "overflow")
+        return ("uncounted", *found[1:]) if uncounted else found
 
-
-def response_complete(case):
-    """Whether `response` has a finite row for every speed."""
-    status, text, seconds = ask("response", case["file"], "--from", 10, "--to", 100,
-                                "--count", 101)
-    speeds = np.array(Table.of(text)["f"], float) if status == 0 else np.zeros(0)
-    whole = len(speeds) == 101 and np.allclose(speeds, np.linspace(10, 100, 101))
-    return whole, seconds
-
-
-def main(number=10, seed=1):
-    dice = random.Random(int(seed))
-    drawn = [realistic_machine(dice) for _ in range(int(number))]
-    print(*COLUMNS.split(), sep="\t")
-    cores = os.cpu_count()
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(cores) as pool:
-        cases = [answer(f"m{k:02}", *one, folder) for k, one in enumerate(drawn)]
-        rows = []
-        for row in pool.map(verdict, cases):
-            rows.append(row)
-            print(*(row[name] for name in COLUMNS.split()), sep="\t", flush=True)
-        responses = [response_complete(case) for case in cases[::10]]
-    count = len(rows)
-    unanswered = sum(row["status"] != 0 for row in rows)
-    undecided = sum(row["regime"] in ("undecided", "-") for row in rows)
-    contradicted = sum(row["agree"] == "no" for row in rows)
-    uncounted = sum(row["agree"] == "uncounted" for row in rows)
-    incomplete = sum(not whole for whole, _ in responses)
-    seconds = sorted(float(row["seconds"]) for row in rows)[count // 2]
-    longest = max((seconds for _, seconds in responses), default=0)
-    print(f"# {count} machines: {unanswered} not answered, {undecided} not decided, "
-          f"{contradicted} contradicted, {uncounted} not counted, median {seconds} s; "
-          f"{len(responses)} responses: {incomplete} not complete, "
-          f"at most {longest:.1f} s")
-    most = max(1, count // 40)
-    return unanswered or undecided > 0.05 * count or contradicted > most or incomplete
-
-
-if __name__ == "__main__":
-    sys.exit(1 if main(*sys.argv[1:]) else 0)
+    def test_machines(self):
+        dice = random.Random(SEED)
+        drawn = [realistic_machine(dice) for _ in range(COUNT)]
+        cases = [(self.file(f"m{k:02}.toml", written(entries(machine))), speed) for k, (machine, speed) in enumerate(drawn)]
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            ends = list(pool.map(lambda k: self.verdict(cases[k], drawn[k][0]), range(COUNT)))
+        count = {word: sum(end[0] == word for end in ends) for word in ("undecided", "no", "uncounted")}
+        print(COUNT, "machines:", count)
+        self.assertLessEqual(count["undecided"], 0.05 * COUNT, ends)
+        self.assertLessEqual(count["no"], max(1, COUNT // 40), ends)
+        self.assertLessEqual(count["uncounted"], 0.2 * COUNT, ends)
+        for file, _ in cases[::10]:
+            speeds = self.asked("response", file, None, "--from", 10, "--to", 100, "--count", 101)["f"]
+            np.testing.assert_allclose(speeds, np.linspace(10, 100, 101))

@@ -214,8 +214,9 @@ class Model:
         return ask("settle", first, transient, observed, transient, kept, points, tolerance,
                    *self.words(), *state)
 
-    def settled(self, before, turns, points):
-        """The motion in the turns after t = 0, that many base periods after rest."""
+    def settled(self, turns, points):
+        """The motion in the turns after t = 0, as long after rest as a transient lasts."""
+        before = math.ceil(self.lead() / self.base)
         state = self.rest(-before * self.base)
         return self.judged(self.settle(state, -before, before, turns, turns, points)).rows
 

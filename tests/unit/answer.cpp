@@ -129,18 +129,6 @@ TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance"
   CHECK(answer.error->larger() < 1e-4);
 }
 
-TEST_CASE("The base period is decided by what drives the machine")
-{
-  Parameters parameters = set_1();
-  CHECK(base_period(parameters).words() == "turn");
-  parameters.bearing.cage_speed_ratio = 7.0 / 16 + 1.0 / 48;
-  CHECK(base_period(parameters).words() == "turns 3");
-  parameters.bearing.cage_speed_ratio = 0.4321;
-  CHECK(base_period(parameters).words() == "two");
-  parameters.unbalance = 0;
-  CHECK(base_period(parameters).words() == "passing");
-}
-
 TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0")
 {
   Parameters parameters = set_1();

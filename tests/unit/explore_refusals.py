@@ -58,7 +58,11 @@ class Values(Case):
                 ("[stator]", "stator = 1\n[other]", "stator must be a table, [stator]"),
                 ("[rotor]", "[[rotor]]", "rotor must be a table, [rotor]"),
                 ("[bearing]", "[[bearing]]", "bearing must be [bearing]; several are of bodies given by matrices"),
-                ("[stator]", "[stator", "not TOML")]:
+                ("[stator]", "[stator", "not TOML"),
+                *((known, unknown, f"{unknown} is not a known key here; did you mean {known}?") for known, unknown in
+                  [("balls", "bals"), ("mass_kg", "mass"), ("cage_speed_ratio", "cage_speed_ration"), ("balls", "Balls")]),
+                *(('title = "', f'title = "{character}', "title must be one line")
+                  for character in ["\\n", "\\t", "\\u0007", "\\u0085", "\\u2028"])]:
             self.refused_change(old, new, words)
 
     def test_files_that_are_no_parameter_files(self):
@@ -68,16 +72,8 @@ class Values(Case):
         self.refused("no such file", "orbit", "no/such/file.toml", *ORBIT)
         self.refused("is a directory", "orbit", self.folder, *ORBIT)
 
-    def test_zero_is_legal(self):
-        for key in ["radial_clearance_m", "acceleration_m_per_s2", "unbalance_kg_m", "damping_ratio"]:
-            with self.subTest(key):
-                zero = re.sub(f"{key} = .*", f"{key} = 0", MACHINE, count=1)
-                self.lines("orbit", self.file("zero.toml", zero), *ORBIT, "--harmonics", 6)
-
     def test_options(self):
         self.refused_each([
-                ("--frequency 0", "--frequency"), ("--frequency -3", "--frequency"),
-                ("--frequency nan", "--frequency"), ("--frequency fast", "--frequency"),
                 ("", "--frequency"),
                 ("--frequency 30 --harmonics 0", "--harmonics 0: must be in 1...4096"),
                 ("--frequency 30 --harmonics 4097", "1...4096"),
@@ -345,12 +341,6 @@ class Files(Case):
                 huge.truncate(100 * 10**9)
                 self.refused("is longer than", *arguments)
 
-    def test_no_control_characters(self):
-        for character in ["\\n", "\\t", "\\u0007", "\\u0085", "\\u2028"]:
-            with self.subTest(character):
-                self.refused_machine("title must be one line",
-                                     MACHINE.replace('title = "', 'title = "' + character))
-
     def test_no_line_from_a_file_name(self):
         """Nor one that a script could not open, after the work: of what is read and of what is written."""
         self.file("a\n# regime: none\nb.toml", MACHINE)
@@ -361,15 +351,6 @@ class Files(Case):
                           ["response", self.machine, *RESPONSE, "--harmonics", 6, "--save", name], ["shaft", self.machine, "--to", name]):
                 self.refused(shown + ": names of files hold neither", *asked)
         self.lines("orbit", self.file("é 🙂.toml", MACHINE), *ORBIT, "--harmonics", 6)
-
-    def test_unknown_key_with_a_suggestion(self):
-        for known, unknown in [("balls", "bals"), ("mass_kg", "mass"),
-                               ("cage_speed_ratio", "cage_speed_ration"), ("balls", "Balls")]:
-            with self.subTest(unknown):
-                self.refused_machine(f"{unknown} is not a known key here; did you mean {known}?",
-                                     MACHINE.replace(known, unknown, 1))
-        self.refused_machine("colour is not a known key", MACHINE.replace("balls", "colour = 1\nballs"))
-        self.refused_machine("balls is missing", re.sub("balls.*", "", MACHINE))
 
     def test_clearance_that_is_never_closed(self):
         wide = self.file("wide.toml", re.sub("(radial_clearance_m = ).*", r"\g<1>20", MACHINE))
@@ -384,7 +365,7 @@ class Options(Case):
         table = self.table("orbit", self.machine, *ORBIT, "--harmonics", "010")
         self.assertEqual((table.value("harmonics"), table.value("samples")), (10, 84))
         for option, values in {"--harmonics": ["0x10", "6.5", "1e1", "", "six", "99999999999", "-1"],
-                               "--frequency": ["0x1p3", "inf", "nan", "1e400", "1e-400", "1e-320", "", "0", "-3"],
+                               "--frequency": ["0x1p3", "fast", "inf", "nan", "1e400", "1e-400", "1e-320", "", "0", "-3"],
                                "--budget": ["0", "1e16", "infinity"]}.items():
             for value in values:
                 with self.subTest(option + " " + value):
@@ -403,34 +384,28 @@ class Options(Case):
                      "orbits", self.machine, *ORBIT)
 
     def test_ignored_options(self):
-        for method, options in {
-                "rk8pd": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--subharmonic 2", "--step 1e-5"],
-                "rk4": ["--harmonics 6", "--subharmonic 2", "--local-error 1e-9"],
-                "splitting": ["--harmonics 6", "--subharmonic 2", "--local-error 1e-9"],
-                "auto": ["--subharmonic 2"],
-                "shooting": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--step 1e-5", "--longest 3"],
-                "aft": ["--local-error 1e-9", "--step 1e-5", "--longest 3"]}.items():
-            for option in options:
-                with self.subTest(method + " " + option):
-                    self.refused(f"{option.split()[0]}: is for ", "orbit", self.machine, *ORBIT,
-                                 "--method", method, *option.split())
-        for option in ["--stability", "--save a", "--isolated 3", "--subharmonic 2", "--waterfall a", "--harmonics-of x_r",
-                       "--times"]:
-            with self.subTest("response " + option):
-                self.refused(f"{option.split()[0]}: is of a branch of solutions; give --harmonics M", "response", self.machine,
-                             *RESPONSE, *option.split())
+        branch = "is of a branch of solutions; give --harmonics M"
+        for command, words, options in [
+                ("orbit rk8pd", "is for ", "harmonics 6, samples 64, newton-tolerance 1e-9, subharmonic 2, step 1e-5"),
+                ("orbit rk4", "is for ", "harmonics 6, subharmonic 2, local-error 1e-9"),
+                ("orbit splitting", "is for ", "harmonics 6, subharmonic 2, local-error 1e-9"),
+                ("orbit auto", "is for ", "subharmonic 2"),
+                ("orbit shooting", "is for ", "harmonics 6, samples 64, newton-tolerance 1e-9, step 1e-5, longest 3"),
+                ("orbit aft", "is for ", "local-error 1e-9, step 1e-5, longest 3"),
+                ("response auto", branch, "stability, save a, isolated 3, subharmonic 2, waterfall a, harmonics-of x_r, times"),
+                ("response aft", "is for a sweep", "longest 3, resume a"),
+                ("response shooting", "is for a sweep", "longest 3, resume a")]:
+            name, method = command.split()
+            speeds = {"orbit": ORBIT, "response": RESPONSE}[name]
+            for option in options.split(", "):
+                first, *value = f"--{option}".split()
+                with self.subTest(command + " " + option):
+                    self.refused(f"{first}: {words}", name, self.machine, *speeds, "--method", method, first, *value)
         two = self.file("two.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.39"))
         self.refused("one of them with two frequencies", "orbit", two, *ORBIT, "--harmonics", 3, "--tolerance", 1e-8)
-        self.refused("--count 1: is for --from equal to --to", "response", self.machine, *RESPONSE, "--count", 1)
-        self.refused("--tolerance: is for --method auto or aft", "response", self.machine, *RESPONSE, "--method", "shooting",
-                     "--tolerance", 1e-3)
-        for method in ["aft", "shooting"]:
-            for option in ["--longest 3", "--resume a"]:
-                with self.subTest(f"response {method} {option}"):
-                    self.refused(f"{option.split()[0]}: is for a sweep", "response", self.machine, *RESPONSE, "--method", method,
-                                 *option.split())
-        for option, needed in [("--seed", "--isolated"), ("--at", "--restart"), ("--branch", "--restart")]:
-            self.refused(f"{option} requires {needed}", "response", self.machine, *RESPONSE, option, "20")
+        self.refused_each([("--count 1", "--count 1: is for --from equal to --to"), ("--seed 20", "--seed requires --isolated"),
+                           ("--at 20", "--at requires --restart"), ("--branch 20", "--branch requires --restart")],
+                          "response", self.machine, *RESPONSE)
 
     def test_help_and_version(self):
         help_of_orbit = "\n".join(self.lines("orbit", "--help"))

@@ -103,45 +103,6 @@ TEST_CASE("Hertz force, its slope and its inverse are consistent")
   CHECK(hertz_penetration(1e11, hertz_force(1e11, 3e-6)) == Approx(3e-6));
 }
 
-TEST_CASE("Eq. 2 for steel on steel gives 1.5e10 at a ball of 1 cm, not Table 1's 1e11")
-{
-  const double e_star = 2.1e11 / (2 * (1 - 0.09));
-  CHECK(hertz_contact_stiffness(0.01, steel, steel) == Approx(4.0 / 3 * 0.1 * e_star));
-  CHECK(hertz_contact_stiffness(0.01, steel, steel) == Approx(1.54e10).epsilon(0.01));
-}
-
-TEST_CASE("Eq. 3: the cage turns at half the rotor's speed for small balls")
-{
-  const auto cage_speed_ratio = [](const char* radii) {
-    StrictToml table("radii.toml", std::string(radii) +
-                                       "balls = 8\n"
-                                       "radial_clearance_m = 1e-5\n"
-                                       "contact_stiffness_N_per_m1p5 = 1e11\n");
-    std::vector<std::string> derived;
-    return read_bearing(table, derived).cage_speed_ratio;
-  };
-  CHECK(cage_speed_ratio("ball_radius_m = 1e-9\ninner_race_radius_m = 0.07\n") ==
-        Approx(0.5));
-  CHECK(cage_speed_ratio("ball_radius_m = 0.01\ninner_race_radius_m = 0.07\n") ==
-        Approx(7.0 / 16));
-}
-
-TEST_CASE("Eqs 4 to 6: a rotor pushed onto one ball meets that ball's Hertz force")
-{
-  const BallBearing bearing(bearing_with(4, 1e-5));
-  const double angle = 0.3;
-  const Direction cage = Direction::of(angle);
-  const Vec2 u{1.5e-5 * cage.cos, 1.5e-5 * cage.sin};
-  const Vec2 force = bearing.force(cage, u);
-  CHECK(force.x == Approx(hertz_force(1e11, 5e-6) * cage.cos));
-  CHECK(force.y == Approx(hertz_force(1e11, 5e-6) * cage.sin));
-
-  const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
-  CHECK(q[0] == Approx(hertz_force(1e11, 5e-6)));
-  CHECK(q[1] == 0);
-  CHECK(q[2] == 0);
-}
-
 TEST_CASE("Hunt and Crossley: one ball, with the cage's turning, and never a pull")
 {
   Bearing damped = bearing_with(4, 1e-5);
@@ -199,34 +160,14 @@ TEST_CASE("The force at all instants is the plain sum over the balls")
     }
 }
 
-TEST_CASE("Outside contact the force at all instants is nothing")
-{
-  const SampledBearing sampled(bearing_with(16, 2e-5), 50);
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(50, 2), force, stiffness;
-  u.col(1).setConstant(-2e-5);
-  sampled(u, force, &stiffness);
-  CHECK(force.norm() == 0);
-  CHECK(stiffness.norm() == 0);
-}
-
 TEST_CASE("Grazing contact: a penetration of rounding size gives a force of that size")
 {
   /** The penetration itself is known to 1e-16 of |u| only: its square root to 1e-8. */
-  for (double over : {1e-15, 1e-12, 1e-9}) {
+  for (double over : {0.0, 1e-15, 1e-12, 1e-9}) {
     const Errors e = errors(bearing_with(16, 2e-5), 64, 2e-5 * (1 + over));
     CHECK(e.force < 1e-14);
     CHECK(e.stiffness < 3e-8);
   }
-}
-
-TEST_CASE("Turning the cage by one ball spacing changes labels only")
-{
-  const BallBearing bearing(bearing_with(7, 1e-6));
-  const Vec2 u{4e-6, -3e-6};
-  const Vec2 a = bearing.force(Direction::of(0.2), u);
-  const Vec2 b = bearing.force(Direction::of(0.2 + 2 * std::numbers::pi / 7), u);
-  CHECK(a.x == Approx(b.x).epsilon(1e-12));
-  CHECK(a.y == Approx(b.y).epsilon(1e-12));
 }
 
 TEST_CASE("Elements beside the balls: derivatives against difference quotients")
@@ -303,12 +244,6 @@ TEST_CASE("Contact parameters are those of Harris's table, and of a ball on a fl
   CHECK(circle.ellipticity == Approx(1).epsilon(1e-12));
   CHECK(circle.stiffness ==
         Approx(hertz_contact_stiffness(0.01, steel, steel)).epsilon(1e-12));
-}
-
-TEST_CASE("Contacts in series give the stiffness of ROLADYN's 6002")
-{
-  CHECK(in_series(1.939e10, 2.055e10) == Approx(7.055e9).epsilon(2e-4));
-  CHECK(in_series(1e10, 1e10) == Approx(1e10 / std::pow(2, 1.5)).epsilon(1e-12));
 }
 
 TEST_CASE("Displacements under load are those of a commercial program after ISO/TS 16281")

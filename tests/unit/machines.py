@@ -42,7 +42,7 @@ class Machines(Case):
                  "preload": changed(rolling, radial_clearance_m=-5e-6), "both": changed(rollers, radial_clearance_m=-5e-6),
                  "outer ring": changed(rolling, cage_speed_ratio="0.625\nouter_ring_speed_ratio = 0.3")}
         for name, text in kinds.items():
-            exact = Model(tomllib.loads(text), 45).settled(300, 1, 32)
+            exact = Model(tomllib.loads(text), 45).settled(1, 32)
             own = self.file("own.toml", text)
             for how, most in [([], 1e-4), (["--method", "aft", "--tolerance", "1e-4"], 2e-4)]:
                 with self.subTest(name=name, how=how):
@@ -50,13 +50,6 @@ class Machines(Case):
                     self.assertEqual(table.value("regime"), "periodic")
                     self.assertEqual(table.value("stator"), "rigid" if "rigid = true" in text else "moving")
                     self.assertLess(abs(displacements(table) - exact).max(), most * np.ptp(exact, axis=0).max())
-
-    def test_verdict_with_a_rigid_stator(self):
-        """Without contact, that of the rotor alone; closed form."""
-        rotor, wide = VALUES["rotor"], replaced(RIGID, "bearing", "radial_clearance_m", "radial_clearance_m = 0.05")
-        table = self.table("orbit", self.file("wide.toml", wide), "--frequency", 45, "--points", 64, "--harmonics", 6)
-        multiplier = math.exp(-rotor["damping_ratio"] * rotor["natural_frequency_rad_per_s"] / 45)
-        self.assertAlmostEqual(table.value("multiplier") / multiplier, 1, delta=1e-6)
 
     def test_varying_compliance(self):
         """The JIS 6306 of the literature, 20 kg held by nothing else, excited by the passing balls alone: the peaks that
@@ -67,12 +60,6 @@ class Machines(Case):
         for name, peak, passages in [("amp_x_r", 10.9e-6, 93.1), ("amp_y_r", 4.06e-6, 91.1)]:
             self.assertAlmostEqual(branch[name].max() / peak, 1, delta=0.003)
             self.assertAlmostEqual(3 * branch["f"][branch[name].argmax()], passages, delta=0.1)
-
-    def test_attractors_and_response_take_them(self):
-        rigid = self.file("rigid.toml", RIGID)
-        table = self.table("response", rigid, "--from", 44, "--to", 46, "--harmonics", 6)
-        self.assertLess(table["amp_x_s"].max(), 1e-13)
-        self.lines("attractors", rigid, "--from", 45, "--to", 45, "--count", 1, "--starts", 0)
 
     def test_attractors_with_any_cage(self):
         """With n c = 32/5 a motion of one base period of five turns at 45 Hz, and of two at 20 Hz, where that of c = 1/2 has two turns."""

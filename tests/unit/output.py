@@ -187,7 +187,7 @@ class Formats(Case):
         for command in (["response", self.machine, "--from", 20, "--to", 21, *SIX],
                         ["runup", self.machine, "--from", 20, "--to", 21, "--seconds", 1],
                         ["campbell", self.machine, "--from", 0, "--to", 60, "--count", 7]):
-            in_hertz, in_rpm = (self.lines(*command, "--plot", "a.svg", *more) for more in ([], ["--rpm"]))
+            in_hertz, in_rpm = (self.lines(*command, *more) for more in ([], ["--plot", "a.svg", "--rpm"]))
             self.assertEqual([line for line in in_rpm if line != "# speed_axis: rpm"], in_hertz)
             svg = (self.folder / "a.svg").read_text(encoding="utf-8")
             self.assertIn("speed of rotation [rpm]", svg)

@@ -9,35 +9,20 @@ from pathlib import Path
 import numpy as np
 from scipy.io import mmread
 
+from tests.machines import table
 from tests.support.explore import Case
 
 PASSING = Path("tests/cases/passing_6306.toml").resolve()
 # A pin at one end of six elements, a 6308 at the other.
-HELD = """title = "held"
-[stator]
-rigid = true
-[rotor]
-matrices = "shaft"
-vertical_dofs = [2, 6, 10, 14, 18, 22, 26]
-[[bearing]]
-rotor_dofs = [25, 26]
-designation = "6308"
-internal_clearance = "CN"
-[gravity]
-acceleration_m_per_s2 = 9.81
-"""
+HELD = 'title = "held"\n' + table("stator", rigid=True) + table("rotor", matrices="shaft", vertical_dofs=[2, 6, 10, 14, 18, 22, 26]) + table(
+    "[bearing]", rotor_dofs=[25, 26], designation="6308", internal_clearance="CN") + table("gravity", acceleration_m_per_s2=9.81)
 
 
 def material(young, shear, density):
-    return f"""title = "shaft"
-[material]
-youngs_modulus_Pa = {young}
-shear_modulus_Pa = {shear}
-density_kg_per_m3 = {density}
-"""
+    return 'title = "shaft"\n' + table("material", youngs_modulus_Pa=young, shear_modulus_Pa=shear, density_kg_per_m3=density)
 
 
-STEEL = material("211e9", "81.2e9", 7810)
+STEEL = material(211e9, 81.2e9, 7810)
 
 
 def segment(elements, length=1.5, diameter=0.05, bore=0):
@@ -45,8 +30,8 @@ def segment(elements, length=1.5, diameter=0.05, bore=0):
     return f"[[segment]]\nlength_m = {length}\ndiameter_m = {diameter}\n{bored}elements = {elements}\n"
 
 
-def disk(node, diameter):
-    return f"[[disk]]\nnode = {node}\nouter_diameter_m = {diameter}\nbore_m = 0.05\nthickness_m = 0.07\n"
+def disk(node, diameter, bore=0.05, thickness=0.07):
+    return f"[[disk]]\nnode = {node}\nouter_diameter_m = {diameter}\nbore_m = {bore}\nthickness_m = {thickness}\n"
 
 
 def support(node, x, y):
@@ -99,10 +84,8 @@ class Shaft(Case):
         """A shear coefficient, a rotary inertia or gyroscopic moments that are wrong or missing change these digits."""
         for name, text, rpm, published in [
                 ("5.9.1", two_disks(6, 1e6, 1e6), 0, [86.66, 86.66, 274.31, 274.31, 716.78]),
-                ("5.9.1", two_disks(6, 1e6, 1e6), 4000, [85.39, 87.80, 251.78, 294.71, 600.18]),
                 ("5.9.2", two_disks(6, 1e6, 8e5), 4000, [82.33, 86.86, 239.64, 287.25, 583.49]),
-                ("5.9.9", OVERHUNG, 0, [90.14, 90.14, 630.73, 630.73, 830.43, 830.43]),
-                ("5.9.9", OVERHUNG, 4000, [76.19, 103.91, 565.99, 634.23, 647.75, 1174.2])]:
+                ("5.9.9", OVERHUNG, 0, [90.14, 90.14, 630.73, 630.73, 830.43, 830.43])]:
             with self.subTest(name=name, rpm=rpm):
                 for value, printed in zip(self.whirl(text, rpm)[0], published):
                     self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
@@ -110,26 +93,14 @@ class Shaft(Case):
     def untouched(self, text, dofs=([1, 2], [1, 2])):
         """A machine whose bearing does not touch: the shaft on its own supports."""
         self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft", "--force")
-        return self.file("machine.toml", f"""title = "on its supports"
-[stator]
-rigid = true
-[rotor]
-matrices = "shaft"
-bearing_dofs = {dofs[0]}
-output_dofs = {dofs[1]}
-[bearing]
-balls = 8
-contact_stiffness_N_per_m1p5 = 1e10
-radial_clearance_m = 1e-3
-cage_speed_ratio = 0.4
-[gravity]
-acceleration_m_per_s2 = 0
-""")
+        return self.file("machine.toml", 'title = "on its supports"\n' + table("stator", rigid=True) + table(
+            "rotor", matrices="shaft", bearing_dofs=dofs[0], output_dofs=dofs[1]) + table("gravity", acceleration_m_per_s2=0) + table(
+            "bearing", balls=8, contact_stiffness_N_per_m1p5=1e10, radial_clearance_m=1e-3, cage_speed_ratio=0.4))
 
     def modes(self, machine, *speeds):
         """Frequencies and damping ratios at the first speed."""
-        table = self.table("campbell", machine, "--from", speeds[0], "--to", speeds[1], "--count", 2, "--modes", 10)
-        first = table.where("f", table["f"][0])
+        modes = self.table("campbell", machine, "--from", speeds[0], "--to", speeds[1], "--count", 2, "--modes", 10)
+        first = modes.where("f", modes["f"][0])
         return first["frequency"], first["damping"]
 
     def test_a_rigid_support(self):
@@ -143,7 +114,7 @@ acceleration_m_per_s2 = 0
 
     def test_a_free_hollow_shaft(self):
         """Isotropic at rest: each frequency, by LAPACK, twice, without damping; speeds from 0."""
-        found, damping = self.modes(self.untouched(material("210e9", "80.769230769e9", 7850) + segment(10, 0.3, 0.03008, 0.007)
+        found, damping = self.modes(self.untouched(material(210e9, 80.769230769e9, 7850) + segment(10, 0.3, 0.03008, 0.007)
                                                    + support(1, 1e3, 1e3) + support(11, 1e3, 1e3)), "0rpm", "60 rpm")
         pairs = np.repeat([5.657116, 9.759929, 1536.0617, 4040.4630, 7487.4650], 2)
         np.testing.assert_allclose(found, pairs, rtol=1e-6)
@@ -153,7 +124,7 @@ acceleration_m_per_s2 = 0
         """A disk on a shaft of any small density: a mass m on the stiffness of a beam with shear within 3e-3; within 2e-4 of
         each other."""
         inertia = "[[disk]]\nnode = 5\nmass_kg = 10\npolar_inertia_kg_m2 = 0.05\ndiametral_inertia_kg_m2 = 0.026\n"
-        found = [self.modes(self.untouched(material("211e9", "81.2e9", density) + segment(8, 1.0, 0.02) + inertia
+        found = [self.modes(self.untouched(material(211e9, 81.2e9, density) + segment(8, 1.0, 0.02) + inertia
                                            + support(1, 1e12, 1e12) + support(9, 1e12, 1e12)), 0, 10)[0][:2]
                  for density in (1e-6, 1e-3, 1e-1)]
         bending, shear = 48 * 211e9 * np.pi * 0.02**4 / 64, 4 * 81.2e9 * 0.9 * np.pi * 0.02**2 / 4
@@ -166,8 +137,8 @@ acceleration_m_per_s2 = 0
                 (two_disks(6, 1e6, 1e6), ([9, 10], [17, 18]), [85.39, 87.80, 251.78, 294.71, 600.18], [-1, 1, -1, 1, -1]),
                 (OVERHUNG, ([5, 6], [25, 26]), [76.19, 103.91, 565.99, 634.23, 647.75, 1174.2], [-1, 1])]:
             own = self.untouched(text, dofs)
-            table = self.table("campbell", own, "--from", 1e-3, "--to", 4000 / 60, "--count", 41, "--modes", 6)
-            last = table.rows(table["f"] > 66.66)
+            whirling = self.table("campbell", own, "--from", 1e-3, "--to", 4000 / 60, "--count", 41, "--modes", 6)
+            last = whirling.rows(whirling["f"] > 66.66)
             for value, printed in zip(2 * np.pi * last["frequency"], published):
                 self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
             self.assertEqual(list(last["whirl"][:len(whirl)]), whirl)
@@ -214,15 +185,15 @@ acceleration_m_per_s2 = 0
     def test_units_of_a_shaft(self):
         """What no shaft has is doubted; the mass is that of all bodies on it."""
         plain = STEEL + segment(6) + disk(4, 0.28)
-        for old, new, words in [("211e9", "211", "a modulus of 211 Pa"), ("81.2e9", "795e9", "the moduli give a Poisson's ratio of -0.867"),
+        for old, new, words in [("211000000000.0", "211", "a modulus of 211 Pa"), ("81200000000.0", "795e9", "the moduli give a Poisson's ratio of -0.867"),
                                 ("7810", "7.81", "a density of 7.81 kg/m^3"), ("length_m = ", "length_m = 1000", "a shaft of")]:
             self.assertIn(old, plain)
             run = self.run_explore("shaft", self.file("doubtful.toml", plain.replace(old, new)), "--to", self.folder / "doubtful")
             self.assertEqual(run.returncode, 0)
             self.assertIn("warning: " + words, run.stderr)
-        table = self.table("shaft", self.file("plain.toml", plain), "--to", self.folder / "plain")
+        made = self.table("shaft", self.file("plain.toml", plain), "--to", self.folder / "plain")
         volume = np.pi / 4 * (0.05**2 * 1.5 + (0.28**2 - 0.05**2) * 0.07)
-        self.assertAlmostEqual(table.value("mass") / (7810 * volume), 1, delta=1e-9)
+        self.assertAlmostEqual(made.value("mass") / (7810 * volume), 1, delta=1e-9)
 
     def test_hollow_shaft(self):
         """A slender free hollow shaft bends a little slower than the beam of Euler and Bernoulli; M holds its mass."""
