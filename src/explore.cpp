@@ -77,11 +77,11 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
              found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn,
              asked.overlay));
   if (!found.is_written) write(found.table.text(asked.format));
-  for (const std::string& why : missing)
-    if (!why.empty()) throw NoSolution(why);
-  if (asked.quiet) return;
-  for (const std::string& text : found.table.warnings())
-    std::fprintf(stderr, "warning: %s\n", printable(text).c_str());
+  if (!asked.quiet)
+    for (const std::string& text : found.table.warnings())
+      std::fprintf(stderr, "warning: %s\n", printable(text).c_str());
+  std::erase(missing, "");
+  if (!missing.empty()) throw NoSolution(joined(missing, "; "));
 }
 
 /** A command with its options, run once these are parsed. */

@@ -234,16 +234,19 @@ double largest_of(const Eigen::VectorXd& x, bool is_closed)
   return vertex(x[(k + n - 1) % n], top, x[(k + 1) % n]).height;
 }
 
+double half_range(const Eigen::VectorXd& x, bool is_closed)
+{
+  return 0.5 * (largest_of(x, is_closed) + largest_of(-x, is_closed));
+}
+
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
 {
   const int n = fast_transform_size(std::max(256, 8 * static_cast<int>(series.cols())));
   Eigen::MatrixXd samples;
   FourierTransform(n).to_samples(series, samples);
   Eigen::VectorXd amplitude(series.rows());
-  for (Eigen::Index row = 0; row < series.rows(); ++row) {
-    const auto x = samples.col(row);
-    amplitude[row] = 0.5 * (largest_of(x, true) + largest_of(-x, true));
-  }
+  for (Eigen::Index row = 0; row < series.rows(); ++row)
+    amplitude[row] = half_range(samples.col(row), true);
   return amplitude;
 }
 

@@ -87,8 +87,10 @@ Vertex vertex(double before, double top, double after);
     follows the last. */
 double largest_of(const Eigen::VectorXd& x, bool is_closed);
 
-/** Half peak-to-peak of each row of a series over the period, the extremes refined by a
-   parabola through three samples. */
+/** Half of such a largest less the smallest. */
+double half_range(const Eigen::VectorXd& x, bool is_closed);
+
+/** The same of each row of a series over the period. */
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series);
 
 }  // namespace rotor_stator

@@ -253,9 +253,7 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
   }
   if (!measures.empty()) {
     const motion::Answer all = whole_motion(measures, found.answer, request, budget);
-    const double step = angular(1) / (all.omega * all.motion.points_per_period);
-    found.measured =
-        measures.of({all.machine, all.motion, step, found.speed, closes(all)});
+    found.measured = measures.of(record_of(all));
   }
   complete(found.answer, request, budget);
   if (found.answer.method == "shooting") {
@@ -413,6 +411,7 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
   table.note(format("periods: K of a motion that closes, %d of another", motion_periods));
   for (const Found& found : all) {
     const motion::Motion& motion = found.answer.motion;
+    if (motion.size() == 0) continue;
     const auto forces = motion::bearing_forces(found.answer.machine, motion);
     const int periods =
         found.is_closed() ? std::max(1, found.answer.period()) : motion_periods;

@@ -134,8 +134,9 @@ public:
          const std::string& header)
       : task_(task), chosen_(chosen), points_(task.grid.x.count),
         rows_((task.grid.last - task.grid.first) * points_),
-        of_piece_(task.request.method == "aft" ? points_
-                                               : std::min(side_by_side, points_))
+        of_piece_(task.request.method == "aft"      ? points_
+                  : task.request.budget.seconds > 0 ? 1
+                                                    : std::min(side_by_side, points_))
   {
     if (task.request.resume)
       copy(*task.request.resume, header);

@@ -16,7 +16,7 @@ namespace rotor_stator::explore {
 
 namespace {
 
-constexpr int instants = 512, swept_instants = 128;  // of a period
+constexpr int instants = 512, swept_instants = 128;  // of a period, of a turn
 
 /** A response curve over the speeds of --sweep. */
 struct Swept {
@@ -111,23 +111,20 @@ public:
   {
     const MapRequest& asked = task_.request;
     const auto tolerance = is_balance() ? std::nullopt : asked.tolerance;
-    const bool has_loads = asks_for({"ball_load", "force"});
-    return {
-        machine_,
-        {.omega = angular(frequency_),
-         .method = is_balance() ? "auto" : asked.method,
-         .tolerance = tolerance,
-         .points = has_loads ? motion::instants_of(based_.machine, based_.omega) : 256,
-         .periods = Measures::open_periods,
-         .step = asked.step,
-         .step_ratio = step_ratio(tolerance),
-         .longest = asked.longest,
-         .is_measured = asked.tolerance ||
-                        asks_for({"stability", "multiplier", "uncertainty", "lyapunov"})},
-        budget_,
-        {},
-        machine_.bodies->patience().transient_share,
-        asks_for({"amplitude", "mean"})};
+    return {machine_,
+            {.omega = angular(frequency_),
+             .method = is_balance() ? "auto" : asked.method,
+             .tolerance = tolerance,
+             .periods = Measures::open_periods,
+             .step = asked.step,
+             .step_ratio = step_ratio(tolerance),
+             .longest = asked.longest,
+             .is_measured = asked.tolerance || asks_for({"stability", "multiplier",
+                                                         "uncertainty", "lyapunov"})},
+            budget_,
+            {},
+            machine_.bodies->patience().transient_share,
+            asks_for({"amplitude"})};
   }
 
   /** What its question came to. */
@@ -152,38 +149,21 @@ public:
     return is_balance() ? half_peak_to_peak(solution().bodies)[2]
                         : settled_.seen.get().amplitude[2];
   }
-  double mean()
-  {
-    return is_balance() ? motion::displacement_samples(motion()).col(3).mean()
-                        : settled_.seen.get().mean[3];
-  }
-  double contact_share() { return motion::contact_share(moving(), motion()); }
-  double ball_load() { return motion::largest_ball_load(moving(), motion()); }
-  double force()
-  {
-    const auto forces = motion::bearing_forces(moving(), motion());
-    Eigen::VectorXd sizes(std::ssize(forces));
-    std::transform(forces.begin(), forces.end(), sizes.begin(),
-                   [](Vec2 f) { return std::hypot(f.x, f.y); });
-    return largest_of(sizes, false);
-  }
-
   /** A measure of that name. */
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
     if (is_balance()) {
-      const double omega = solution().omega;
-      const int points = measures.recording(based_.machine, omega, instants).points;
-      const motion::Motion record = motion::motion_of(solution(), points);
-      const double step = angular(1) / (omega * points);
-      return measures.of({based_.machine, record, step, frequency_, true}).at(0);
+      const motion::Motion& record = motion_([&] {
+        return motion::motion_of(
+            solution(),
+            measures.recording(based_.machine, solution().omega, instants).points);
+      });
+      return measures.of(record_of(based_.machine, record, true)).at(0);
     }
     const motion::Answer& whole = whole_(
         [&] { return whole_motion(measures, settled(), question().request, budget_); });
-    const double step = angular(1) / (whole.omega * whole.motion.points_per_period);
-    const bool is_closed = closes(whole);
-    return measures.of({whole.machine, whole.motion, step, frequency_, is_closed}).at(0);
+    return measures.of(record_of(whole)).at(0);
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
@@ -211,9 +191,10 @@ public:
            rotor_stator::sweep(based_.machine, speeds, base_.turns * task_.harmonics,
                                base_.turns * task_.samples, budget_)) {
         if (!at.found()) continue;
-        budget_.spend(3 * swept_instants);
+        const int instants = base_.turns * swept_instants;
+        budget_.spend(3 * instants);
         const double hertz = at.omega / (angular(1) * base_.per_turn);
-        const motion::Motion motion = motion::motion_of(at, swept_instants);
+        const motion::Motion motion = motion::motion_of(at, instants);
         curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
         all.ball_load =
             std::max(all.ball_load, motion::largest_ball_load(based_.machine, motion));
@@ -243,15 +224,6 @@ private:
     return std::ranges::find_first_of(task_.request.quantities, names) !=
            task_.request.quantities.end();
   }
-
-  /** One period of the solution, or the record of the motion from rest; and the machine
-      that counts its periods. */
-  const motion::Motion& motion()
-  {
-    if (!is_balance()) return answer().motion;
-    return motion_([&] { return motion::motion_of(solution(), instants); });
-  }
-  const Parameters& moving() { return is_balance() ? based_.machine : answer().machine; }
 
   void require_period() const
   {
@@ -301,13 +273,8 @@ namespace {
 
 const std::vector<Quantity> quantities{
     {"amplitude", "m", "half peak-to-peak of x_r", Source::motion, &MapPoint::amplitude},
-    {"mean", "m", "mean of y_r over the period", Source::motion, &MapPoint::mean},
-    {"contact_share", "-", "share of the time with at least one loaded ball",
-     Source::motion, &MapPoint::contact_share},
-    {"ball_load", "N", "largest force on a ball of the first bearing", Source::motion,
-     &MapPoint::ball_load},
-    {"force", "N", "largest force of the first bearing, Eq. 6", Source::motion,
-     &MapPoint::force},
+    {"mean", "m", "mean of y_r", Source::motion,
+     [](auto& p) { return p.measured("mean_y_r"); }},
     {"stability", "word",
      "of the motion, or of that of Eq. 7 found from the solution: stable, unstable, "
      "undecided",
@@ -371,7 +338,8 @@ Quantity named(const std::string& name, const std::function<Parameters()>& machi
   std::vector<std::string> known;
   for (const Quantity& q : quantities) known.push_back(q.name);
   throw BadInput("--quantity " + name + ": is not a quantity" + suggestion(name, known) +
-                 " (known: " + joined(known, ", ") + ")");
+                 " (known: " + joined(known, ", ") +
+                 "; measures such as contact_share, ball_load, force, rms_v_x_r)");
 }
 
 }  // namespace

@@ -123,9 +123,9 @@ double value_of(const std::string& what, const Eigen::VectorXd& x, const Record&
     const Eigen::Index ends =
         record.is_closed ? 0 : std::min<Eigen::Index>(2 * order, x.size() / 4);
     const Eigen::ArrayXd inner = x.segment(ends, x.size() - 2 * ends);
-    const double up = largest_of(inner - mean, record.is_closed),
-                 down = largest_of(mean - inner, record.is_closed);
-    return what == "amp_" ? 0.5 * (up + down) : std::max(up, down);
+    if (what == "amp_") return half_range(inner, record.is_closed);
+    return std::max(largest_of(inner - mean, record.is_closed),
+                    largest_of(mean - inner, record.is_closed));
   }
   if (what == "rms_") return std::sqrt((x.array() - mean).square().mean());
   if (what == "amp_1X_") return std::abs(at_rotation(x, record));
@@ -159,8 +159,12 @@ Eigen::VectorXd samples_of(const Record& record, const Measure& one)
     x.setConstant(1e-6 * pressure * std::cbrt(largest_load(record, one.place)));
   } else {
     const auto forces = motion::bearing_forces(machine, motion, one.place);
-    for (std::size_t k = 0; k < forces.size(); ++k)
-      x[static_cast<Eigen::Index>(k)] = one.of == Of::force_x ? forces[k].x : forces[k].y;
+    std::ranges::transform(forces, x.begin(), [&](Vec2 f) {
+      return one.of == Of::force_x   ? f.x
+             : one.of == Of::force_y ? f.y
+                                     : std::hypot(f.x, f.y);
+    });
+    if (one.of == Of::force) x.setConstant(largest_of(x, is_closed));
   }
   return x;
 }
@@ -207,6 +211,7 @@ std::vector<Measure> measures_of(const Parameters& machine)
         Of::contact_share, b);
     add(numbered("ball_load", b), "N", "largest force of a ball of the bearing",
         Of::ball_load, b);
+    add(numbered("force", b), "N", "largest force of the bearing, Eq. 6", Of::force, b);
     if (bearings[b].pressure > 0)
       add(numbered("stress", b), "N/mm^2", "largest pressure of Hertz in the bearing",
           Of::stress, b);
@@ -293,9 +298,16 @@ motion::Answer whole_motion(const Measures& measures, motion::Answer answer,
   return answer;
 }
 
-bool closes(const motion::Answer& answer)
+Record record_of(const Parameters& machine, const motion::Motion& motion, bool is_closed)
 {
-  return answer.method == "shooting" || answer.kind() == Kind::rest;
+  return {machine, motion, angular(1) / (motion.omega * motion.points_per_period),
+          rotor_speed(machine, motion.omega) / angular(1), is_closed};
+}
+
+Record record_of(const motion::Answer& answer)
+{
+  return record_of(answer.machine, answer.motion,
+                   answer.method == "shooting" || answer.kind() == Kind::rest);
 }
 
 }  // namespace rotor_stator::explore

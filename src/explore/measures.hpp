@@ -7,9 +7,9 @@ peak-to-peak), `peak` (the largest distance from the mean), `mean`, `rms` (about
 mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso` (rms of the
 velocity in mm/s from 10 to 1000 Hz, below 600 turns a minute from 2 Hz, ISO 20816).
 Without WHAT the value at each instant. The same, but no rates, of a bearing's force on
-the stator, F_x or F_x_2. Of each bearing also `ball_load` and `stress`, ball_load_2 of
-the second, and `contact_share`, which is of any one where there are several,
-contact_share_1 of the first.
+the stator, F_x or F_x_2. Of each bearing also `ball_load`, `stress` and the largest `force`,
+ball_load_2 of the second, and `contact_share`, which is of any one where there are
+several, contact_share_1 of the first.
 
 All are taken from one record at equal instants, sixteen in its quickest vibration: K
 base periods of a motion that closes, 256 of another one (fewer where these would not fit
@@ -26,13 +26,17 @@ order 8.
 namespace rotor_stator::explore {
 
 /** A motion of a machine whose instants are `step` [s] apart, the rotor's speed [Hz], and
-    whether it goes on from its beginning. */
+    whether it goes on from its beginning. `record_of` takes both from the motion's base
+    frequency. */
 struct Record {
   const Parameters& machine;
   const motion::Motion& motion;
   double step, speed;
   bool is_closed;
 };
+
+Record record_of(const Parameters& machine, const motion::Motion& motion, bool is_closed);
+Record record_of(const motion::Answer& answer);
 
 /** How a motion is recorded for them: P, and base periods where it does not close. */
 struct Recording {
@@ -42,7 +46,15 @@ struct Recording {
 /** WHAT is taken of which displacement, as `shown_at` counts, or of which bearing; -1: of
     any. What a bearing has once in a record is taken as its mean. */
 struct Measure {
-  enum class Of { displacement, force_x, force_y, contact_share, ball_load, stress };
+  enum class Of {
+    displacement,
+    force_x,
+    force_y,
+    force,
+    contact_share,
+    ball_load,
+    stress
+  };
   Column column;
   std::string what;
   Of of;
@@ -92,8 +104,5 @@ Measures add_measures(std::vector<Field<Row>>& fields, const std::string& names,
 /** The motion of an answer, recorded as measures need it. */
 motion::Answer whole_motion(const Measures& measures, motion::Answer answer,
                             motion::Request request, const OperationBudget& budget);
-
-/** Whether it goes on from its beginning. */
-bool closes(const motion::Answer& answer);
 
 }  // namespace rotor_stator::explore

@@ -223,17 +223,18 @@ void put_statistics(Table& table, const motion::Observation& seen)
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
                            int open_periods, const OperationBudget& budget, Table& table)
 try {
-  const motion::Answer answer = motion::answer(parameters,
-                                               {.omega = angular(request.frequency),
-                                                .method = request.method,
-                                                .tolerance = request.tolerance,
-                                                .points = request.points,
-                                                .periods = open_periods,
-                                                .step = request.step,
-                                                .local_error = request.local_error,
-                                                .longest = request.longest,
-                                                .is_measured = request.stability},
-                                               budget);
+  const motion::Answer answer =
+      motion::answer(parameters,
+                     {.omega = angular(request.frequency),
+                      .method = request.method,
+                      .tolerance = request.tolerance,
+                      .points = request.points,
+                      .periods = open_periods,
+                      .step = request.step,
+                      .local_error = request.local_error,
+                      .longest = request.longest,
+                      .is_measured = request.stability || request.tolerance},
+                     budget);
   const Settled& settled = answer.settled;
   table.value("method", answer.method);
   put_base(table, answer.base.words(), answer.omega / angular(1));

@@ -22,11 +22,10 @@ const ResponseFields usual_fields =
     ResponseFields{{"f", "Hz", "speed of rotation", &Row::frequency}} +
     displacement_fields<Row>("amp_", "half peak-to-peak of ", &Row::amplitude);
 
-const ResponseFields contact_fields{
-    {"amp_F_x", "N", "half peak-to-peak of F_x", [](auto& r) { return r.force.x; }},
-    {"amp_F_y", "N", "half peak-to-peak of F_y", [](auto& r) { return r.force.y; }},
-    {"contact_share", "-", "share of the time with a loaded ball", &Row::contact_share},
-    {"ball_load", "N", "largest force of a ball of the first bearing", &Row::ball_load}};
+/** Measures that are among all columns. */
+const std::string further_columns =
+    "mean_x_s,mean_y_s,mean_x_r,mean_y_r,rms_x_s,rms_y_s,rms_x_r,rms_y_r,amp_F_x,amp_F_y,"
+    "contact_share,ball_load,stress";
 
 /** The row of the displacement whose harmonics are asked for. Throws BadInput. */
 Eigen::Index displacement_row(const ResponseRequest& request)
@@ -96,24 +95,6 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
 
 }  // namespace
 
-void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion,
-             double omega, bool is_closed, const Measures& measures)
-{
-  row.mean = mean_of(motion);
-  const auto forces = motion::bearing_forces(parameters, motion);
-  const auto half_range = [&](double Vec2::*axis) {
-    Eigen::VectorXd along(std::ssize(forces));
-    std::transform(forces.begin(), forces.end(), along.begin(),
-                   [axis](Vec2 f) { return f.*axis; });
-    return 0.5 * (largest_of(along, is_closed) + largest_of(-along, is_closed));
-  };
-  row.force = {half_range(&Vec2::x), half_range(&Vec2::y)};
-  row.contact_share = motion::contact_share(parameters, motion);
-  row.ball_load = motion::largest_ball_load(parameters, motion);
-  const double step = angular(1) / (omega * motion.points_per_period);
-  row.measured = measures.of({parameters, motion, step, row.frequency, is_closed});
-}
-
 ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,
                            const ResponseFields& own, bool is_settled)
 {
@@ -122,14 +103,8 @@ ResponseColumns columns_of(const ResponseRequest& request, const Parameters& par
   if (is_settled)
     all.push_back(
         {"lyapunov", "1/s", "growth rate of neighbouring motions", &Row::lyapunov});
-  all = all + displacement_fields<Row>("mean_", "mean of ", &Row::mean);
-  if (is_settled)
-    all = all + displacement_fields<Row>("rms_", "rms about the mean of ", &Row::rms);
-  all = all + contact_fields;
-  if (const double pressure = parameters.bearing.pressure; pressure > 0)
-    all.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
-                   [=](auto& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
-  Measures measures = add_measures(all, request.columns, parameters);
+  Measures measures = add_measures(
+      all, request.columns == "all" ? further_columns : request.columns, parameters);
   return {all, usual, measures};
 }
 

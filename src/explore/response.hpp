@@ -58,23 +58,14 @@ struct ResponseRow {
   double multiplier = -1, multiplier_change = -1;
   std::string verdict = "undecided", bifurcation = "-";
   std::vector<std::complex<double>> harmonics = {};  ///< of --harmonics-of [m]
-
-  Displacements mean{}, rms{};              ///< [m]
-  Vec2 force{0, 0};                         ///< half peak-to-peak [N]
-  double contact_share = 0, ball_load = 0;  ///< [-], [N]
   std::vector<double> measured = {};
 };
-
-/** What the instants of a motion of this base frequency [rad/s] show: mean, force,
-    contact, load and measures. */
-void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion,
-             double omega, bool is_closed, const Measures& measures);
 
 using ResponseFields = std::vector<Field<ResponseRow>>;
 
 /** The columns that every response has, then `own` ones, then those that are printed when
-    they are asked for, of a sweep more than of a branch, and measures; how many are
-    printed else. */
+    they are asked for: of a sweep the exponent, and measures; how many are printed
+    else. */
 struct ResponseColumns {
   ResponseFields fields;
   std::size_t usual;

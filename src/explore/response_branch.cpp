@@ -330,10 +330,10 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
     const auto [points, turns] =
         measures.recording(task_.parameters, motion.omega,
                            two ? 128 : std::max(256, 4 * task_.harmonics + 4), 64);
-    observe(row, task_.parameters,
-            two ? motion::motion_of(task_.parameters, motion, points, turns)
-                : motion::motion_of(motion, points),
-            motion.omega, !two, measures);
+    const motion::Motion record =
+        two ? motion::motion_of(task_.parameters, motion, points, turns)
+            : motion::motion_of(motion, points);
+    row.measured = measures.of(record_of(task_.parameters, record, !two));
   }
   table_.row(columns_.fields, row);
   if (!has_lines) return;
@@ -392,6 +392,15 @@ Exploration branch_by_balance(ResponseTask task)
   return {std::move(table), std::move(files), unfinished};
 }
 
+/** Of a motion that closes, between its instants. */
+static Displacements amplitude_of(const motion::Motion& motion)
+{
+  const Eigen::MatrixXd q = motion::displacement_samples(motion);
+  Displacements amplitude;
+  for (int i = 0; i < 4; ++i) amplitude[i] = half_range(q.col(i), true);
+  return amplitude;
+}
+
 Exploration branch_by_shooting(const ResponseTask& task)
 {
   constexpr int points = 256;
@@ -435,11 +444,11 @@ Exploration branch_by_shooting(const ResponseTask& task)
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
         .frequency = solution.omega / angular(1),
-        .amplitude = half_peak_to_peak(motion),
+        .amplitude = amplitude_of(motion),
         .arc = arc,
         .newton = solution.newton.iterations,
         .harmonics = harmonics_of(task, motion::series_of(motion, task.harmonics))};
-    if (has_further) observe(row, machine, motion, solution.omega, true, measures);
+    if (has_further) row.measured = measures.of(record_of(machine, motion, true));
     if (request.stability) try {
         put_multipliers(row, motion::multipliers_through(machine, solution.omega, there,
                                                          task.budget));

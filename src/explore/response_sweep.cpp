@@ -202,14 +202,17 @@ Exploration computed(Sweep& sweep)
 
 /** Whether anything touches in a motion that was not recorded: where it stands now or,
     where nothing is loaded then, over a few periods. */
-bool touches_somewhere(motion::Answer& answer)
-{
+bool touches_somewhere(motion::Answer& answer, const OperationBudget& budget)
+try {
   motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
   complete(answer,
-           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false});
+           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false},
+           budget);
   return motion::contact_share(answer.machine, answer.motion) > 0;
+} catch (const NoSolution&) {
+  return false;  // another speed may say so
 }
 
 /** The row of a settled motion. */
@@ -222,21 +225,18 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
                   .amplitude = seen.amplitude,
                   .period = answer.period_number()};
   if (sweep.has_further) {
-    motion::Answer closed = answer;
-    motion::Request finer = asked;
-    finer.points = motion::instants_of(answer.machine, answer.omega);
-    if (asked.is_measured || measures.empty()) complete(closed, finer, budget);
-    row.lyapunov = closed.settled.lyapunov.value;
-    answer = measures.empty() ? std::move(closed)
-                              : whole_motion(measures, answer, asked, budget);
-    observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
-    if (row.contact_share > 0) sweep.touches = true;
+    if (asked.is_measured) {
+      motion::Answer closed = answer;
+      complete(closed, asked, budget);
+      row.lyapunov = closed.settled.lyapunov.value;
+    }
+    answer = whole_motion(measures, answer, asked, budget);
+    row.measured = measures.of(record_of(answer));
+    if (motion::contact_share(answer.machine, answer.motion) > 0) sweep.touches = true;
     answer.motion = {};
-  } else if (!sweep.touches && touches_somewhere(answer)) {
+  } else if (!sweep.touches && touches_somewhere(answer, budget)) {
     sweep.touches = true;
   }
-  row.mean = seen.mean;
-  row.rms = seen.rms;
   return row;
 }
 
@@ -332,8 +332,8 @@ Exploration response_to_tolerance(const ResponseTask& task)
     const Measures& measures = sweep.columns.measures;
     const int points = measures.recording(task.parameters, at.motion.omega, least).points;
     if (sweep.has_further)
-      observe(row, task.parameters, motion::motion_of(at.motion, points), at.motion.omega,
-              true, measures);
+      row.measured = measures.of(
+          record_of(task.parameters, motion::motion_of(at.motion, points), true));
     if (motion::touches(task.parameters, at.motion)) sweep.touches = true;
     return row;
   };

@@ -61,8 +61,14 @@ Exploration explore_runup(const RunUpRequest& request)
                 smallest);
     };
   }
-  const std::vector<motion::PassedTurn> all =
-      motion::run_up(machine, run, budget, stretches);
+  std::vector<motion::PassedTurn> all;
+  std::string missing;
+  try {
+    motion::run_up(machine, run, all, budget, stretches);
+  } catch (const NoSolution& none) {
+    if (all.empty()) throw;
+    missing = machine.file + ": " + none.what();
+  }
   if (all.empty())
     throw BadInput(format("--seconds %g: is less than a turn", request.seconds));
   describe(table, machine);
@@ -82,9 +88,10 @@ Exploration explore_runup(const RunUpRequest& request)
   const auto lost = std::ranges::find_if(all, [](Turn t) { return t.contact < 1; });
   if (lost != all.end()) table.value("contact_lost_f", lost->speed / angular(1));
   for (Turn turn : all) table.row(fields, turn);
+  put_complete(table, missing);
   conclude(table, machine, std::ranges::any_of(all, [](Turn t) { return t.contact > 0; }),
            budget);
-  Exploration found{.table = std::move(table)};
+  Exploration found{.table = std::move(table), .unfinished = missing};
   if (request.waterfall) found.files.push_back({*request.waterfall, lines.text()});
   return found;
 }

@@ -92,8 +92,10 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 std::optional<double> decimal(const std::string& word)
 {
   double value = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  const char *const end = word.data() + word.size(), *const begin =
+                                                         word.data() + (word[0] == '+' &&
+                                                                        word[1] != '-');
+  const auto [rest, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
   return value;
 }

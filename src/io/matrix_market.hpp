@@ -16,8 +16,8 @@ namespace rotor_stator {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /** Reads a square matrix. Throws BadInput with file and line for everything that is not
-    one: another kind, numbers that are missing, left over, not finite, out of range or
-    repeated. No memory is asked for that the length of the file does not account for. */
+    one: another kind, numbers that are missing, left over, not finite or out of range. No
+    memory is asked for that the length of the file does not account for. */
 SparseMatrix read_matrix(const std::string& file);
 
 /** The text of such a file: real, general, every digit of a double. */

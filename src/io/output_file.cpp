@@ -89,9 +89,9 @@ Temporary::Temporary(std::string name) : name_(std::move(name))
 
 Temporary::~Temporary()
 {
+  remove_now(name_.c_str());
   for (auto& place : temporaries)
     if (place == name_.c_str()) place = nullptr;
-  remove_now(name_.c_str());
 }
 
 void require_plain_name(const std::string& name)

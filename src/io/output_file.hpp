@@ -39,7 +39,8 @@ struct NamedContent {
   std::string name, content;
 };
 
-/** Writes all files or none, else throws NoSolution: beside them, then renamed. */
+/** Writes files beside their names, then renames them. Throws NoSolution, and leaves all
+    as they were where one cannot be written. */
 void write_files(const std::vector<NamedContent>& files);
 
 /** Writes all of `text` to stdout, else throws NoSolution (a full disk, closed pipe). */

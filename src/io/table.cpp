@@ -309,7 +309,7 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
   }
   in.clear();
   for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
-    if (in.eof() && between_ == '\t')
+    if (in.eof() && !first_line.empty())
       throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.ends_with('\r')) line.pop_back();

@@ -12,9 +12,6 @@
 
 namespace rotor_stator {
 
-const Ways clearance_ways{
-    {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
-
 namespace {
 
 constexpr int most_balls = 1024;
@@ -23,15 +20,25 @@ const char* const designation_key = "designation";
 constexpr const char *exponent_key = "contact_exponent",
                      *power_key = "contact_stiffness_N_per_mn";
 
+}  // namespace
+
+const Ways clearance_ways{
+    {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
+const Ways own_stiffness_ways{
+    {"contact_stiffness_N_per_m1p5"},
+    {power_key, exponent_key},
+    {"inner_groove_ratio", "outer_groove_ratio", "youngs_modulus_Pa", "poissons_ratio"}};
+
+namespace {
+
 const Ways cage_ways{{"cage_speed_ratio"},
                      {"ball_radius_m", "inner_race_radius_m"},
                      {"ball_diameter_m", "pitch_diameter_m"},
                      {designation_key}};
-const Ways stiffness_ways{
-    {"contact_stiffness_N_per_m1p5"},
-    {power_key, exponent_key},
-    {"inner_groove_ratio", "outer_groove_ratio", "youngs_modulus_Pa", "poissons_ratio"},
-    {designation_key}};
+const Ways stiffness_ways{own_stiffness_ways[0],
+                          own_stiffness_ways[1],
+                          own_stiffness_ways[2],
+                          {designation_key}};
 
 /** The catalogue's tables [[`key`]]. */
 std::vector<StrictToml> catalogue(const std::string& key)

@@ -33,7 +33,7 @@ seals and cage may stand in a designation; the class of clearance in it counts. 
 namespace rotor_stator {
 
 /** Ways to give the clearance. */
-extern const Ways clearance_ways;
+extern const Ways clearance_ways, own_stiffness_ways;
 
 /** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`,
     lines for headers. Throws BadInput for a value given in two ways, or in none. */

@@ -75,7 +75,9 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
     slope.setZero();
     force.setZero();
     for (Eigen::Index at = 0; const Bearing& joint : joints) {
-      const BallBearing bearing(joint, rotor_speed);
+      Bearing still = joint;
+      still.damping = 0;
+      const BallBearing bearing(still, rotor_speed);
       for (int k = 0; k < angles; ++k) {
         const double cage =
             joint.cage_phase + angular(1) * k / std::max(joint.balls, 1) / angles;

@@ -238,7 +238,8 @@ bool is_bare(const Parameters& parameters)
 
 bool excludes(const std::string& key, const std::string& other)
 {
-  const auto all = {clearance_ways, damping_ways, suspension_ways, unbalance_ways};
+  const auto all = {clearance_ways, own_stiffness_ways, damping_ways, suspension_ways,
+                    unbalance_ways};
   return std::ranges::any_of(all, [&](const Ways& ways) {
     const auto way_of = [&](const std::string& name) {
       return std::ranges::find_if(

@@ -136,7 +136,12 @@ Body equivalent(const Assembly& all, int number, double spring)
     }
   const Eigen::VectorXd shape = Eigen::SimplicialLDLT<SparseMatrix>(held).solve(force);
   const double count = force.sum(), sag = force.dot(shape) / count;
-  const double stiffness = count / sag - count * spring;
+  double stiffness = count / sag - count * spring;
+  for (std::size_t ground = all.bearings; ground < all.places.size(); ++ground)
+    for (const int axis : {1, 3})
+      if (const int dof = all.places[ground][axis] - all.first(number);
+          dof >= 0 && dof < body.size())
+        stiffness -= spring * shape[dof] * shape[dof] / (sag * sag);
   const double mass = shape.dot(body.m * shape) / (sag * sag);
   const bool is_held = stiffness > 1e-6 * count * spring;
   return {.mass = mass,
@@ -280,11 +285,14 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
             all.first(1) + rotor.nodes[i + 1] == all.places[b][3])
           bearing_nodes.emplace_back(b, i / 2);
   }
-  /** The spring is that of a ball that carries all weights and loads. */
-  const double k_h = parameters.bearing.contact_stiffness,
-               loads = all.bodies[0].size_of_loads + all.bodies[1].size_of_loads;
-  const double spring = hertz_stiffness(
-      k_h, hertz_penetration(k_h, std::max(loads, hertz_force(k_h, 1e-6))));
+  /** The spring is that of a ball that carries all weights and loads, the stiffest. */
+  const double loads = all.bodies[0].size_of_loads + all.bodies[1].size_of_loads;
+  double spring = 0;
+  for (const Bearing& bearing : bearings_of(parameters)) {
+    const double k_h = bearing.contact_stiffness, n = bearing.exponent;
+    const double load = std::max(loads, hertz_force(k_h, 1e-6, n));
+    spring = std::max(spring, hertz_stiffness(k_h, hertz_penetration(k_h, load, n), n));
+  }
   parameters.unbalance = (all.bodies[0].unbalance.cwiseAbs().sum() +
                           all.bodies[1].unbalance.cwiseAbs().sum()) /
                          2;

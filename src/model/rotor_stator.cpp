@@ -71,18 +71,20 @@ Scales scales(const Parameters& parameters)
                         std::hypot(s.load.x, s.load.y) + std::hypot(r.load.x, r.load.y);
   const double resonance = joint_resonance(parameters);
   const double unbalance = parameters.unbalance * resonance * resonance;
-  const double k_h = parameters.bearing.contact_stiffness;
-  const double n = parameters.bearing.exponent, gap = parameters.bearing.clearance;
-
-  /** Without any load u = 0, and a nanometre of penetration stands for its size. */
-  const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9, n));
-  const double penetration = std::max(-gap, hertz_penetration(k_h, load, n));
-  const double length = std::abs(gap) + penetration;
-  return {.load = load,
-          .penetration = penetration,
-          .length = length,
-          .stiffness = hertz_stiffness(k_h, penetration, n) +
-                       largest_stiffness(parameters.bearing.parallel, load, length)};
+  Scales most{};
+  for (const Bearing& bearing : bearings_of(parameters)) {
+    const double k_h = bearing.contact_stiffness, n = bearing.exponent,
+                 gap = bearing.clearance;
+    /** Without any load u = 0, and a nanometre of penetration stands for its size. */
+    const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9, n));
+    const double penetration = std::max(-gap, hertz_penetration(k_h, load, n));
+    const double length = std::abs(gap) + penetration;
+    const double stiffness = hertz_stiffness(k_h, penetration, n) +
+                             largest_stiffness(bearing.parallel, load, length);
+    most = {std::max(most.load, load), std::max(most.penetration, penetration),
+            std::max(most.length, length), std::max(most.stiffness, stiffness)};
+  }
+  return most;
 }
 
 double contact_frequency(const Parameters& parameters)

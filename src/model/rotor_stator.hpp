@@ -141,7 +141,7 @@ struct DynamicStiffness {
 };
 DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
 
-/** Sizes that make the equations dimensionless. */
+/** Sizes that make the equations dimensionless; of several bearings the largest. */
 struct Scales {
   /** Weights and loads of both bodies plus the unbalance at the joint resonance [N]. */
   double load;

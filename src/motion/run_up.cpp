@@ -146,8 +146,8 @@ struct ByAngle {
 
 }  // namespace
 
-std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
-                               const OperationBudget& budget, const Stretches& stretches)
+void run_up(const Parameters& parameters, const RunUp& run, std::vector<PassedTurn>& all,
+            const OperationBudget& budget, const Stretches& stretches)
 {
   if (!parameters.bodies->takes_explicit_steps() || !parameters.grounds.empty())
     throw BadInput(parameters.file +
@@ -165,7 +165,6 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
     return equation.system.acceleration(q, v, now.push,
                                         equation.forces(q, v, now).second);
   };
-  std::vector<PassedTurn> all;
   Seen seen(state);
   ByAngle by_angle{run, stretches};
   double began = 0, made = 0;
@@ -195,7 +194,6 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
     began = t;
     made = std::floor(run.angle(t) / turn + 1e-9);
   }
-  return all;
 }
 
 }  // namespace rotor_stator::motion

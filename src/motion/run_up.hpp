@@ -10,7 +10,9 @@ $$m_e e \left(\omega^2 \cos\varphi + \alpha \sin\varphi,\;
 minus the second derivative of its position. The rest of Eq. 7 is unchanged.
 
     RunUp run{.from = angular(10), .to = angular(60), .seconds = 30};
-    for (const PassedTurn& turn : run_up(parameters, run, budget))
+    std::vector<PassedTurn> turns;
+    run_up(parameters, run, turns, budget);
+    for (const PassedTurn& turn : turns)
       … turn.speed, turn.amplitude[2] …
 
 A run that begins above standstill starts from the steady motion there. Tests compare with
@@ -52,11 +54,11 @@ struct Stretches {
   std::function<void(double speed, const Motion&)> seen = {};
 };
 
-/** All whole turns in the order of time, by RK4 with the shortest step that a speed of
-    the run asks for. Throws BadInput for bodies by matrices and for a damaged bearing
-    with contact damping, NoSolution when the budget is used up. */
-std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
-                               const OperationBudget& budget = {},
-                               const Stretches& stretches = {});
+/** Adds all whole turns to `all` in the order of time, by RK4 with the shortest step that
+    a speed of the run asks for. Throws BadInput for bodies by matrices and for a damaged
+    bearing with contact damping, NoSolution when the budget is used up; `all` then has
+    the turns before. */
+void run_up(const Parameters& parameters, const RunUp& run, std::vector<PassedTurn>& all,
+            const OperationBudget& budget = {}, const Stretches& stretches = {});
 
 }  // namespace rotor_stator::motion
