@@ -211,8 +211,8 @@ class NumberTable {
 public:
   /** Separated by tabs, semicolons or commas, with the line ends and the byte order mark
       of any system; with a `first_line`, with which it must begin, as this program wrote
-      it. Throws BadInput with file and line when it is missing, empty, longer than 1 GB or
-      not such a table, with a first line also when it is cut off. */
+      it. Throws BadInput with file and line when it is missing, empty, longer than 1 GB
+      or not such a table, with a first line also when it is cut off. */
   explicit NumberTable(const std::string& file, const std::string& first_line = "");
 
   const std::vector<std::string>& names() const { return names_; }
