@@ -91,7 +91,7 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
 /**
 ## The rows */
 
-constexpr std::size_t side_by_side = 64;  // points
+constexpr std::size_t side_by_side = 64, widest_lanes = 8;  // points
 
 bool is_lost(const std::string& row)
 {
@@ -135,7 +135,7 @@ public:
       : task_(task), chosen_(chosen), points_(task.grid.x.count),
         rows_((task.grid.last - task.grid.first) * points_),
         of_piece_(task.request.method == "aft"      ? points_
-                  : task.request.budget.seconds > 0 ? 1
+                  : task.request.budget.seconds > 0 ? std::min(widest_lanes, points_)
                                                     : std::min(side_by_side, points_))
   {
     if (task.request.resume)

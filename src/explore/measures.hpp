@@ -8,8 +8,8 @@ mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso
 velocity in mm/s from 10 to 1000 Hz, below 600 turns a minute from 2 Hz, ISO 20816).
 Without WHAT the value at each instant. The same, but no rates, of a bearing's force on
 the stator, F_x or F_x_2. Of each bearing also `ball_load`, `stress` and the largest
-`force`, ball_load_2 of the second, and `contact_share`, which is of any one where there are
-several, contact_share_1 of the first.
+`force`, ball_load_2 of the second, and `contact_share`, which is of any one where there
+are several, contact_share_1 of the first.
 
 All are taken from one record at equal instants, sixteen in its quickest vibration: K
 base periods of a motion that closes, 256 of another one (fewer where these would not fit

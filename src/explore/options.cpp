@@ -58,8 +58,7 @@ void refuse(const Options& options, bool used, const char* where,
 const std::string measures_in_words =
     "; of a motion amp_, peak_, mean_, rms_, amp_1X_ or phase_1X_ of x_s ... y_r, x_r_2, "
     "x_r_out, a velocity v_x_r, an acceleration a_x_r, a force F_x, F_x_2; iso_x_r, mm/s "
-    "rms of ISO 20816; of a bearing force, ball_load, stress, ball_load_2; "
-    "contact_share, contact_share_1";
+    "rms of ISO 20816; force, ball_load, stress, contact_share, contact_share_1, force_2";
 
 /** A file to be read. */
 template <class Name>

@@ -202,17 +202,14 @@ Exploration computed(Sweep& sweep)
 
 /** Whether anything touches in a motion that was not recorded: where it stands now or,
     where nothing is loaded then, over a few periods. */
-bool touches_somewhere(motion::Answer& answer, const OperationBudget& budget)
-try {
+bool touches_somewhere(motion::Answer& answer)
+{
   motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
   complete(answer,
-           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false},
-           budget);
+           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false});
   return motion::contact_share(answer.machine, answer.motion) > 0;
-} catch (const NoSolution&) {
-  return false;  // another speed may say so
 }
 
 /** The row of a settled motion. */
@@ -234,7 +231,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
     row.measured = measures.of(record_of(answer));
     if (motion::contact_share(answer.machine, answer.motion) > 0) sweep.touches = true;
     answer.motion = {};
-  } else if (!sweep.touches && touches_somewhere(answer, budget)) {
+  } else if (!sweep.touches && touches_somewhere(answer)) {
     sweep.touches = true;
   }
   return row;

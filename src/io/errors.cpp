@@ -89,13 +89,16 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
+const char* after_plus(const std::string& word)
+{
+  return word.data() + (word[0] == '+' && word[1] != '-');
+}
+
 std::optional<double> decimal(const std::string& word)
 {
   double value = 0;
-  const char *const end = word.data() + word.size(), *const begin =
-                                                         word.data() + (word[0] == '+' &&
-                                                                        word[1] != '-');
-  const auto [rest, error] = std::from_chars(begin, end, value);
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(after_plus(word), end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
   return value;
 }

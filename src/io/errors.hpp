@@ -93,4 +93,8 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 /** The finite number that a whole word is in decimal notation, if it is one. */
 std::optional<double> decimal(const std::string& word);
 
+/** Where its digits or its minus sign begin: a plus sign, which from_chars does not know,
+    is skipped. */
+const char* after_plus(const std::string& word);
+
 }  // namespace rotor_stator

@@ -61,8 +61,7 @@ public:
       std::ranges::replace(text, 'd', 'e');  // of Fortran
     const char* const end = text.data() + text.size();
     Number value = 0;
-    const auto [rest, error] =
-        std::from_chars(text.data() + (text[0] == '+' && text[1] != '-'), end, value);
+    const auto [rest, error] = std::from_chars(after_plus(text), end, value);
     if (error != std::errc{} || rest != end) fail("holds something else than " + what);
     return value;
   }

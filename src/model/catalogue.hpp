@@ -32,7 +32,7 @@ seals and cage may stand in a designation; the class of clearance in it counts. 
 
 namespace rotor_stator {
 
-/** Ways to give the clearance. */
+/** Ways to give the clearance, and the stiffness beside a designation. */
 extern const Ways clearance_ways, own_stiffness_ways;
 
 /** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`,

@@ -136,12 +136,7 @@ Body equivalent(const Assembly& all, int number, double spring)
     }
   const Eigen::VectorXd shape = Eigen::SimplicialLDLT<SparseMatrix>(held).solve(force);
   const double count = force.sum(), sag = force.dot(shape) / count;
-  double stiffness = count / sag - count * spring;
-  for (std::size_t ground = all.bearings; ground < all.places.size(); ++ground)
-    for (const int axis : {1, 3})
-      if (const int dof = all.places[ground][axis] - all.first(number);
-          dof >= 0 && dof < body.size())
-        stiffness -= spring * shape[dof] * shape[dof] / (sag * sag);
+  const double stiffness = shape.dot(body.k * shape) / (sag * sag);
   const double mass = shape.dot(body.m * shape) / (sag * sag);
   const bool is_held = stiffness > 1e-6 * count * spring;
   return {.mass = mass,
