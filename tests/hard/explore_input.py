@@ -2,7 +2,7 @@
 
     0   a table of finite numbers on stdout, on stderr at most how many points of a map have no result, and a warning of the speed
     2   bad input: one line on stderr, nothing on stdout
-    3   no solution: one line on stderr, at most a part of a table on stdout
+    3   no solution: warnings of the machine, then one line on stderr, at most a part of a table on stdout
 
 No run takes minutes, whatever the machine, or leaves a file behind that was not asked for, or half of one. The questions are drawn by hypothesis,
 the same in every run; what fails is shrunk to the simplest question that still fails. Other questions:
@@ -56,7 +56,6 @@ def table_fault(text):
 
 def fault(status, out, err):
     """What is wrong with the end of a run, or None."""
-    one_line = len(err) > 1 and err.count("\n") == 1 and err.endswith("\n")
     if status == 0:
         if not re.fullmatch(r"(\d+ of \d+ points have no result: see their status\n)?(warning: [^\n]*\n)*", err):
             return "status 0 with words on stderr"
@@ -65,10 +64,10 @@ def fault(status, out, err):
     if status == 2:
         if out:
             return "status 2 with words on stdout"
-        return None if one_line else "status 2 without one line on stderr"
+        return None if re.fullmatch(r"[^\n]+\n", err) else "status 2 without one line on stderr"
     if status == 3:
-        if not one_line:
-            return "status 3 without one line on stderr"
+        if not re.fullmatch(r"(warning: [^\n]*\n)*(?!warning: )[^\n]+\n", err):
+            return "status 3 without one line on stderr behind the warnings"
         if NO_NUMBER.search(err):
             return "status 3 with a reason that is not a number"
         return table_fault(out) if out else None
