@@ -100,7 +100,8 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
   std::vector<Eigen::Index> order;
   for (Eigen::Index k = 0; k < 2 * n; ++k)
     if (const auto at = found.values[k];
-        at.imag() > 1e-6 && std::abs(at.real()) < most_damped * std::abs(at))
+        at.imag() > 1e-6 && at.imag() < machine_.reduced_to &&
+        std::abs(at.real()) < most_damped * std::abs(at))
       order.push_back(k);
   std::ranges::sort(order, {}, [&](auto k) { return found.values[k].imag(); });
   order.resize(std::min(order.size(), most));
@@ -136,8 +137,8 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
 std::string doubt(double residual)
 {
   return format(
-      "the modes solve their equations to %.1e only: stiffnesses or dampers "
-      "differ too much",
+      "the modes solve their equations to %.1e only: stiffnesses or dampers differ too "
+      "much, or C and G couple more than 120 modes",
       residual);
 }
 

@@ -42,7 +42,8 @@ public:
   const Eigen::MatrixXd& contact() const { return contact_; }
 
   /** The modes at a speed [Hz] that oscillate, with less than 0.95 of the critical
-      damping, of lowest frequency, ascending, at most so many. Throws NoSolution where
+      damping and within what a reduced body holds, of lowest frequency, ascending, at
+      most so many. Throws NoSolution where
       the budget does not pay for them. */
   std::vector<Mode> modes(double speed, std::size_t most) const;
 

@@ -75,7 +75,8 @@ void add_stiffness(Doubts& all, const Bearing& bearing)
 
 void add_bearing(Doubts& all, const Bearing& bearing)
 {
-  constexpr double widest = 5, deepest_spall = 1e-3, widest_gap = 0.01;  // [m]
+  constexpr double widest = 5, deepest_spall = 1e-3, widest_gap = 3e-3;  // [m]
+  constexpr double most_clearance = 1e-3, most_preload = 6e-5;  // of unknown balls [m]
   constexpr double most_damped = 100;  // λ [s/m]; steel has 0.08 to 0.32
   constexpr double fullest = 0.97;     // of the pitch circle, by balls side by side
   const double d = bearing.ball_diameter, depth = bearing.defect.depth;
@@ -85,6 +86,9 @@ void add_bearing(Doubts& all, const Bearing& bearing)
   all.add(is_wide, format("the clearance of %g m is more than a tenth of the ball",
                           bearing.clearance));
   all.add(!is_wide && !bearing.doubt.empty(), bearing.doubt);
+  all.add(
+      d == 0 && (bearing.clearance > most_clearance || bearing.clearance < -most_preload),
+      format("a radial clearance of %g m: is it in m?", bearing.clearance));
   add_stiffness(all, bearing);
   const double share =
       bearing.balls * std::asin(std::min(1.0, bearing.radius_ratio)) / std::numbers::pi;
@@ -168,14 +172,13 @@ void add_damper(Doubts& all, const Parameters& machine)
 /** About bodies given by matrices. */
 void add_bodies(Doubts& all, const Parameters& machine)
 {
-  const auto& bodies = dynamic_cast<const MatrixMachine&>(*machine.bodies).bodies();
-  const double unbalance = bodies.unbalance.cwiseAbs().sum() / 2,
-               weight = bodies.load.cwiseAbs().sum();
-  const double e = printable_size(unbalance * machine.gravity / weight);
+  const double weight =
+      dynamic_cast<const MatrixMachine&>(*machine.bodies).bodies().size_of_loads;
+  const double e = printable_size(machine.unbalance * machine.gravity / weight);
   all.add(weight > 0 && e > most_eccentric,
           format("the unbalance of %.3g kg m is an eccentricity of %.3g m of all that "
                  "weighs: is it in kg m?",
-                 unbalance, e));
+                 machine.unbalance, e));
   add_sag(all, machine);
 }
 
@@ -183,14 +186,16 @@ void add_bodies(Doubts& all, const Parameters& machine)
 
 Doubts doubts(const Parameters& machine, double highest)
 {
-  constexpr double heaviest = 30;      // gravity of any planet [m/s²]
-  constexpr double most_hertz = 1000;  // of a suspension
+  constexpr double heaviest = 30, lightest = 1.5;  // gravity of planets and the moon
+  constexpr double lightest_stator = 5e-3;         // over the mass of the rotor
+  constexpr double most_hertz = 1000;              // of a suspension
   Doubts all;
   for (const Bearing& bearing : bearings_of(machine)) add_bearing(all, bearing);
   const std::string too_fast = doubt_of_speed(machine, highest);
   all.add(!too_fast.empty(), too_fast);
-  all.add(machine.gravity > heaviest,
-          format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));
+  all.add(
+      machine.gravity > heaviest || (machine.gravity > 0 && machine.gravity < lightest),
+      format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));
   for (const Body* body : {&machine.stator, &machine.rotor}) {
     const double critical = 2 * body->mass * body->natural_frequency;
     const double ratio =
@@ -218,6 +223,10 @@ Doubts doubts(const Parameters& machine, double highest)
                    "Hz: are its units right?",
                    name, body->mass, printable_size(sinks), body->stiffness(), hertz));
   }
+  all.add(
+      !machine.stator.rigid && machine.stator.mass < lightest_stator * machine.rotor.mass,
+      format("a stator of %g kg about a rotor of %g kg: are their masses in kg?",
+             machine.stator.mass, machine.rotor.mass));
   add_rotor(all, machine);
   if (all.empty()) add_sag(all, machine);
   if (all.empty()) add_damper(all, machine);

@@ -120,7 +120,8 @@ PeriodicMotion torus_start(const ResponseTask& task)
 
 const ResponseFields stability_fields{
     {"multiplier", "-",
-     "largest modulus of the Floquet multipliers of the motion of Eq. 7 found there; -1",
+     "largest modulus of the Floquet multipliers of the motion of Eq. 7 found there; -1 "
+     "not found, or one of many points close together that was left out",
      &ResponseRow::multiplier},
     {"multiplier_change", "-", "uncertainty of it: change at the last refinement",
      &ResponseRow::multiplier_change},

@@ -19,6 +19,7 @@ D Dᵀ regular where the joints carry a body. */
 #include <Eigen/Core>
 #include <array>
 #include <complex>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ struct LargeBodies {
   Eigen::VectorXd load;        ///< constant forces, weight included [N]
   Eigen::VectorXcd unbalance;  ///< the force is ω² Re(unbalance e^{iωt}) [kg m]
   double spring;               ///< k_0 [N/m]
+  double size_of_loads = 0;    ///< of the weights and other constant loads [N]
   int shown;                   ///< coordinates that are shown, at least four
   /** Of x_s, y_s, x_r, y_r at each joint; -1, -1 and x, y of a body at the ground. */
   std::vector<std::array<int, 4>> places;
@@ -43,6 +45,7 @@ struct LargeBodies {
   std::vector<std::pair<std::string, int>> outputs;
   std::vector<std::string> reductions = {};  ///< lines for headers
   double reduction_error = 0;                ///< of their receptances, relative
+  double reduced_to = std::numeric_limits<double>::infinity();  ///< Ω [rad/s], at most
   double slowest = 0, fastest = 0;  ///< speeds [rad/s] over which responses are fitted
   std::shared_ptr<RationalFits> fits = {};  ///< by the ratio of frequency and speed
   SparseMatrix nodes = {};  ///< x, y of the rotor's nodes asked for, 2k × n

@@ -38,11 +38,24 @@ SparseMatrix read_one(const std::filesystem::path& file, double sign, bool requi
     throw BadInput(format("%s: has %ld rows, and M.mtx %d", file.c_str(),
                           static_cast<long>(matrix.rows()), size));
   const SparseMatrix image = sign * SparseMatrix(matrix.transpose());
+  /** Of what the two degrees of freedom have: a stiff support elsewhere hides nothing. */
   constexpr double rounding = 1e-8;
-  if (SparseMatrix(matrix - image).norm() > rounding * matrix.norm())
-    throw BadInput(
-        format("%s: is not %s", file.c_str(),
-               sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are"));
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(matrix.rows());
+  const auto each = [](const SparseMatrix& a, const auto& act) {
+    for (int k = 0; k < a.outerSize(); ++k)
+      for (SparseMatrix::InnerIterator at(a, k); at; ++at)
+        act(at.row(), at.col(), std::abs(at.value()));
+  };
+  each(matrix, [&](auto i, auto j, double value) {
+    for (const auto one : {i, j}) largest[one] = std::max(largest[one], value);
+  });
+  each(matrix - image, [&](auto i, auto j, double value) {
+    if (value > rounding * std::sqrt(largest[i] * largest[j]))
+      throw BadInput(
+          format("%s: is not %s in row %ld, column %ld", file.c_str(),
+                 sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are",
+                 static_cast<long>(i + 1), static_cast<long>(j + 1)));
+  });
   return 0.5 * (matrix + image);
 }
 
@@ -317,9 +330,11 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
       holding.places.push_back(all.places[all.bearings + k]);
   holding.require_held(spring);
   LargeBodies machine = all.assembled(spring);
-  for (const auto& [note, error] : reductions) {
+  machine.size_of_loads = loads;
+  for (const auto& [note, error, highest] : reductions) {
     machine.reductions.push_back(note);
     machine.reduction_error = std::max(machine.reduction_error, error);
+    machine.reduced_to = std::min(machine.reduced_to, highest);
   }
   machine.bearing_nodes = std::move(bearing_nodes);
   if (asked.from < asked.to) {

@@ -375,7 +375,7 @@ Reduction reduce(LinearBody& whole, const std::vector<int>& kept, std::size_t jo
              "at %d random points of 0...%.4g Hz",
              whole.name.c_str(), static_cast<long>(n), whole.size(), error,
              right_in_a_row, highest / (2 * std::numbers::pi)),
-      error};
+      error, highest};
 }
 
 }  // namespace rotor_stator

@@ -45,11 +45,11 @@ struct ReductionRange {
   double from, to, highest, spring;
 };
 
-/** What was done, a line for headers; and the largest relative error of the receptances
-    at points that are not in the basis. */
+/** What was done, a line for headers; the largest relative error of the receptances at
+    points that are not in the basis; and the highest frequency of them [rad/s]. */
 struct Reduction {
   std::string note;
-  double error;
+  double error, highest;
 };
 
 /** The message about a degree of freedom that neither K nor a bearing holds. */

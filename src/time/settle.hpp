@@ -35,8 +35,9 @@ other motion begins where the integration ended.
 
 An impact may make the contact vibrate too fast for the step: the integration then
 diverges, or sustains a motion that Eq. 7 does not have. The motion found is therefore
-followed for one base period with a quarter of the step. If that leads elsewhere, or if
-integration diverged, it is repeated once with such steps; with a fixed step the motion is
+followed for one base period with a quarter of the step, for 32 where it is said to be
+quasi-periodic though one frequency drives. If that leads elsewhere, or if integration
+diverged, it is repeated once with such steps; with a fixed step the motion is
 `undecided`, or lost.
 
 A `Settling` does the same side by side with others (side_by_side.hpp). The machine is
@@ -97,6 +98,7 @@ private:
   TrajectoryPair pair_from_start() const;
   void look();
   bool is_resolved();
+  bool wobble_is_resolved();
   void begin_anew();
   Settled seen() const;
   bool is_at_rest() const;

@@ -89,6 +89,20 @@ TEST_CASE("A motion that only too long steps keep up is not reported")
   CHECK(kept.reason.starts_with("with a quarter of the step"));
 }
 
+TEST_CASE("A wobble that only the steps keep up is not reported")
+{
+  /** The contact grazes: the steps move the section by 6e-4, as a torus would. */
+  const Parameters machine = read_parameters(SOURCE_DIR "/data/vertical.toml");
+  const auto settled = [&](double f) {
+    return settle(machine, hertz(f), base_period(machine),
+                  from_rest(machine, hertz(f)));
+  };
+  const Settled closed = settled(24);
+  CHECK(closed.period == 1);
+  CHECK(closed.step == step_at(machine, hertz(24)) / 4);
+  CHECK(settled(23.75).kind == Kind::quasi_periodic);
+}
+
 TEST_CASE("A multiplier near -1 does not double the period")
 {
   /** The transient alternates from turn to turn, and leaves 2.5 % less each time: two

@@ -217,7 +217,7 @@ class Large(Case):
                 (head + "2 2 1\n1 1 1 1\n", "more"), (head + "2 2 1\n1 1\n", "lacks"),
                 (head + "2 2 1\n1 1 x\n", "something else"),
                 (head + "2 2 1\n1 1 +-5\n", "something else"), (head + "2 2 1\n1 1 5\0 7\n", "something else"),
-                (head + "2 2 1\n1 2 1\n", "symmetric"),
+                (head + "2 2 1\n1 2 1\n", "symmetric"), (head + "2 2 3\n1 1 1e16\n2 2 1e5\n1 2 1e6\n", "symmetric in row"),
                 (head + "2 2 1000000000000\n1 1 1\n", "entries"), (head + "100000 100000 2000000000\n1 1 1\n", "can hold"),
                 (head + "2 2 2\n1 1 1e5\n2 2 -1e12\n", "singular")]:
             with_file("rotor/K.mtx", text, words)
