@@ -97,13 +97,12 @@ Exploration explore_campbell(const CampbellRequest& request)
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
   const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
-  double residual = 0;
-  std::string unfinished;
+  std::string warning, unfinished;
   try {
     for (const double speed : speeds) {
       modes.push_back(linear.modes(speed, request.modes));
       for (int number = 1; const Mode& mode : modes.back()) {
-        residual = std::max(residual, mode.residual);
+        if (warning.empty()) warning = doubt(mode);
         if (!request.critical)
           table.row({speed, number++, mode.frequency, mode.damping, mode.whirl});
       }
@@ -135,7 +134,7 @@ Exploration explore_campbell(const CampbellRequest& request)
   if (std::ranges::all_of(modes, &std::vector<Mode>::empty))
     throw NoSolution(
         format("no mode oscillates from %g to %g Hz", request.from, request.to));
-  if (residual > well_solved) table.note("warning: " + doubt(residual));
+  if (!warning.empty()) table.note("warning: " + warning);
   put_complete(table, unfinished);
   put_cost(table, budget);
   return {.table = std::move(table), .unfinished = unfinished};

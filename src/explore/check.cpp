@@ -174,7 +174,7 @@ Exploration explore_check(const CheckRequest& request)
     const double speed = mode.frequency / passages_per_turn(machine.bearing);
     if (!is_large && speed >= request.from && speed <= request.to)
       add("passage_" + name, speed, "Hz", "speed at which the passing balls meet it");
-    if (mode.residual > well_solved) warn(doubt(mode.residual));
+    if (const std::string words = doubt(mode); !words.empty()) warn(words);
   }
   if (is_large)
     table.note(

@@ -134,12 +134,18 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
   return list;
 }
 
-std::string doubt(double residual)
+std::string doubt(const Mode& mode)
 {
-  return format(
-      "the modes solve their equations to %.1e only: stiffnesses or dampers differ too "
-      "much, or C and G couple more than 120 modes",
-      residual);
+  constexpr double well_solved = 2e-6;
+  if (mode.residual > well_solved)
+    return format(
+        "the modes solve their equations to %.1e only: stiffnesses or dampers differ too "
+        "much, or C and G couple more than 120 modes",
+        mode.residual);
+  if (mode.damping < 0)
+    return format("the mode of %.5g Hz grows: its damping ratio is %.3g", mode.frequency,
+                  mode.damping);
+  return "";
 }
 
 }  // namespace rotor_stator::explore

@@ -60,8 +60,7 @@ private:
   Eigen::VectorXd omega_;               ///< [rad/s]
 };
 
-/** Residuals above it deserve a warning, in these words. */
-constexpr double well_solved = 2e-6;
-std::string doubt(double residual);
+/** The warning that a mode deserves: that it grows, or that it is inaccurate. */
+std::string doubt(const Mode& mode);
 
 }  // namespace rotor_stator::explore

@@ -140,6 +140,12 @@ void Settling::arrived()
   }
   pair_.arrived();
   if (!pair_.is_between_periods()) return;
+  /** Beyond that no bearing is left. */
+  constexpr double lengths = 1e5, metres = 1;
+  if (pair_.half_range() > std::max(metres, lengths * length_))
+    throw NoSolution(
+        format("the motion grows without bound: by more than %.3g m after %.3g s",
+               pair_.half_range(), pair_.seconds()));
   /** After t = 0; earlier where the motion may have closed: any base period begins it. */
   const bool may_be_over = pair_.at().period >= 0 ||
                            (!base_.is_driven_twice() && pair_.contraction() <= forgotten);
@@ -181,8 +187,7 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  const bool wobbles =
-      settled_.kind == Kind::quasi_periodic && !base_.is_driven_twice();
+  const bool wobbles = settled_.kind == Kind::quasi_periodic && !base_.is_driven_twice();
   if (!is_resolved() || (wobbles && !wobble_is_resolved())) {
     if (!rule_.is_fixed) return begin_anew();
     settled_.kind = Kind::undecided;
@@ -279,8 +284,7 @@ Settled Settling::seen() const
     s.kind = Kind::chaotic;
   else if (base_.is_driven_twice() && s.contracts)
     s.kind = pair_.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
-  else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 &&
-           is_long)
+  else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 && is_long)
     s.kind = Kind::quasi_periodic;
   if (s.kind != Kind::undecided || !s.reason.empty()) return s;
   if (s.contracts && pair_.contraction() <= forgotten)

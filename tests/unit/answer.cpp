@@ -89,6 +89,13 @@ TEST_CASE("A motion that only too long steps keep up is not reported")
   CHECK(kept.reason.starts_with("with a quarter of the step"));
 }
 
+TEST_CASE("A motion that grows without bound is none")
+{
+  Parameters machine = set_1();
+  machine.stator.damping_ratio = machine.rotor.damping_ratio = -2e-3;
+  CHECK_THROWS_WITH(from_rest_at(machine, 30), contains("grows without bound"));
+}
+
 TEST_CASE("A wobble that only the steps keep up is not reported")
 {
   /** The contact grazes: the steps move the section by 6e-4, as a torus would. */
