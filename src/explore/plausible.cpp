@@ -76,9 +76,9 @@ void add_stiffness(Doubts& all, const Bearing& bearing)
 void add_bearing(Doubts& all, const Bearing& bearing)
 {
   constexpr double widest = 5, deepest_spall = 1e-3, widest_gap = 3e-3;  // [m]
-  constexpr double most_clearance = 1e-3, most_preload = 6e-5;  // of unknown balls [m]
-  constexpr double most_damped = 100;  // λ [s/m]; steel has 0.08 to 0.32
-  constexpr double fullest = 0.97;     // of the pitch circle, by balls side by side
+  constexpr double most_preload = 6e-5;  // of balls of unknown size [m]
+  constexpr double most_damped = 100;    // λ [s/m]; steel has 0.08 to 0.32
+  constexpr double fullest = 0.97;       // of the pitch circle, by balls side by side
   const double d = bearing.ball_diameter, depth = bearing.defect.depth;
   const double pitch = printable_size(pitch_diameter(bearing));
   all.add(pitch > widest, format("a pitch diameter of %.3g m: are lengths in m?", pitch));
@@ -86,9 +86,8 @@ void add_bearing(Doubts& all, const Bearing& bearing)
   all.add(is_wide, format("the clearance of %g m is more than a tenth of the ball",
                           bearing.clearance));
   all.add(!is_wide && !bearing.doubt.empty(), bearing.doubt);
-  all.add(
-      d == 0 && (bearing.clearance > most_clearance || bearing.clearance < -most_preload),
-      format("a radial clearance of %g m: is it in m?", bearing.clearance));
+  all.add(d == 0 && bearing.clearance < -most_preload,
+          format("a preload of %g m: is it in m?", -bearing.clearance));
   add_stiffness(all, bearing);
   const double share =
       bearing.balls * std::asin(std::min(1.0, bearing.radius_ratio)) / std::numbers::pi;
