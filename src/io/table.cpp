@@ -90,7 +90,7 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
       std::string known;
       for (const Column& column : columns_) known += " " + column.name;
       throw BadInput("--columns " + name + ": must be all, or of" + known +
-                     ", each once");
+                     ", each once; others are in --help");
     }
     printed_.push_back(k);
   }
