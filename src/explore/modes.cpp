@@ -99,9 +99,9 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
   constexpr double most_damped = 0.95;
   std::vector<Eigen::Index> order;
   for (Eigen::Index k = 0; k < 2 * n; ++k)
-    if (const auto at = found.values[k];
-        at.imag() > 1e-6 && at.imag() < machine_.reduced_to &&
-        std::abs(at.real()) < most_damped * std::abs(at))
+    if (const auto at = found.values[k]; at.imag() > 1e-6 &&
+                                         at.imag() < machine_.reduced_to &&
+                                         std::abs(at.real()) < most_damped * std::abs(at))
       order.push_back(k);
   std::ranges::sort(order, {}, [&](auto k) { return found.values[k].imag(); });
   order.resize(std::min(order.size(), most));

@@ -259,8 +259,8 @@ try {
   FoundMotion found{.motion = answer.motion, .machine = answer.machine};
   if (answer.kind() == Kind::chaotic) {
     table.note(
-        format("chaotic over the %.3g s of the transient and 256 base periods: a "
-               "longer transient looks the same",
+        format("chaotic over the %.3g s of the transient and 256 base periods: chaos "
+               "that ends later looks the same",
                settled.seconds));
     found.has_statistics = answer.seen.has_value();
     if (answer.seen)

@@ -228,8 +228,9 @@ bool Settling::is_resolved()
 }
 
 /** Whether steps a quarter as long follow the points of the section over 32 base periods,
-    to a tenth of the width that these take. Where the contact grazes, steps alone may keep
-    up a small wobble of a motion that closes: shorter ones leave it by all of its width. */
+    to a tenth of the width that these take. Where the contact grazes, steps alone may
+    keep up a small wobble of a motion that closes: shorter ones leave it by all of its
+    width. */
 bool Settling::wobble_is_resolved()
 {
   constexpr int periods = 32;

@@ -89,8 +89,8 @@ public:
   void arrived() override;
   void lost(std::exception_ptr why) override;
 
-  /** What it came to. Throws NoSolution when the integration broke down or the motion grows
-      without bound. A budget that ended leaves what is known, undecided. */
+  /** What it came to. Throws NoSolution when the integration broke down or the motion
+      grows without bound. A budget that ended leaves what is known, undecided. */
   const Settled& settled() const;
 
 private:

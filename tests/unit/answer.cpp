@@ -101,13 +101,31 @@ TEST_CASE("A wobble that only the steps keep up is not reported")
   /** The contact grazes: the steps move the section by 6e-4, as a torus would. */
   const Parameters machine = read_parameters(SOURCE_DIR "/data/vertical.toml");
   const auto settled = [&](double f) {
-    return settle(machine, hertz(f), base_period(machine),
-                  from_rest(machine, hertz(f)));
+    return settle(machine, hertz(f), base_period(machine), from_rest(machine, hertz(f)));
   };
   const Settled closed = settled(24);
   CHECK(closed.period == 1);
   CHECK(closed.step == step_at(machine, hertz(24)) / 4);
   CHECK(settled(23.75).kind == Kind::quasi_periodic);
+}
+
+TEST_CASE("A motion that the steps keep from doubling is left")
+{
+  /** Steps of usual length close after 8 turns, with the multiplier 1.246 of Eq. 7; RK4 with
+      2,000 steps in a turn, written apart, closes after 16. */
+  Parameters machine = set_1();
+  machine.stator = {.mass = 7.16, .natural_frequency = 587.6, .damping_ratio = 0.125};
+  machine.rotor = {.mass = 1.13, .natural_frequency = 0, .damping_ratio = 0};
+  machine.rotor.damper = 393.4;
+  machine.unbalance = 2.101e-5;
+  machine.bearing.balls = 8;
+  machine.bearing.contact_stiffness = 1.605e10;
+  machine.bearing.clearance = 4.241e-5;
+  machine.bearing.cage_speed_ratio = 0.375;
+  const motion::Answer doubled = from_rest_at(machine, 41.25);
+  CHECK(doubled.period() == 16);
+  CHECK(doubled.stability == "stable");
+  CHECK(from_rest_at(machine, 41.27).period() == 8);
 }
 
 TEST_CASE("A multiplier near -1 does not double the period")
