@@ -79,7 +79,8 @@ struct Answer {
 
 /** Throws NoSolution when the integration breaks down, when the error stays above the
     tolerance or is unknown, and when the budget ends in the record. A budget that ends
-    before leaves the kind undecided, with the reason in `settled`. */
+    before leaves the kind undecided, with the reason in `settled`. A closed motion with a
+    multiplier above 1 is left: from beside it with steps a quarter as long, twice. */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 

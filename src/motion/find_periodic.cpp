@@ -335,8 +335,8 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
     at.verdict.distance = {infinite, infinite};
     const Parameters longer = over_turns(search.parameters, turns);
     std::vector<Eigen::VectorXd> known = search.starts;
-    bool is_known = false;        ///< whether the solution's own motion is
-    bool is_settled = turns > 1;  ///< whether where the machine settles is
+    bool is_known = false;                     ///< whether the solution's own motion is
+    bool is_settled = turns > 1;               ///< whether where the machine settles is
     const int each = search.parameters.turns;  // so that a turn has whole numbers
     for (int least = first; turns * least <= most && !at.reached; least *= 2) {
       const int m = (least + each - 1) / each * each;
