@@ -140,8 +140,8 @@ std::string doubt(const Mode& mode)
   if (mode.residual > well_solved)
     return format(
         "the modes solve their equations to %.1e only: stiffnesses or dampers differ too "
-        "much, or C and G couple more than 120 modes",
-        mode.residual);
+        "much, or C and G couple more than %td modes",
+        mode.residual, most);
   if (mode.damping < 0)
     return format("the mode of %.5g Hz grows: its damping ratio is %.3g", mode.frequency,
                   mode.damping);

@@ -43,8 +43,7 @@ public:
 
   /** The modes at a speed [Hz] that oscillate, with less than 0.95 of the critical
       damping and within what a reduced body holds, of lowest frequency, ascending, at
-      most so many. Throws NoSolution where
-      the budget does not pay for them. */
+      most so many. Throws NoSolution where the budget does not pay for them. */
   std::vector<Mode> modes(double speed, std::size_t most) const;
 
 private:
@@ -60,7 +59,7 @@ private:
   Eigen::VectorXd omega_;               ///< [rad/s]
 };
 
-/** The warning that a mode deserves: that it grows, or that it is inaccurate. */
+/** The warning that a mode deserves: that it is inaccurate or grows. Empty: none. */
 std::string doubt(const Mode& mode);
 
 }  // namespace rotor_stator::explore

@@ -486,8 +486,8 @@ Answer answer(const Parameters& parameters, const Request& request,
     if (found.kind() == Kind::chaotic && observed.seen.has_value())
       found.seen = observed.seen.get();
     complete(found, question.request, budget);
-    const bool is_left = found.multiplier > 0 && found.stability == "unstable";
-    if (!is_left || request.step > 0 || times == most_times) return found;
+    if (found.stability != "unstable" || request.step > 0 || times == most_times)
+      return found;
     /** The steps have kept up a motion that Eq. 7 leaves: from beside it by shorter
         ones. */
     question.start = rotor_stator::state_of(vector_of(found.settled.at.state) +

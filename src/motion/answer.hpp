@@ -79,8 +79,9 @@ struct Answer {
 
 /** Throws NoSolution when the integration breaks down, when the error stays above the
     tolerance or is unknown, and when the budget ends in the record. A budget that ends
-    before leaves the kind undecided, with the reason in `settled`. A closed motion with a
-    multiplier above 1 is left: from beside it with steps a quarter as long, twice. */
+    before leaves the kind undecided, with the reason in `settled`. Where the
+    motion that closes has a multiplier above 1, the steps have kept it up: the question
+    is asked again from beside it with steps a quarter as long, twice at most. */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 

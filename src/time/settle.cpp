@@ -187,8 +187,7 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  const bool wobbles = settled_.kind == Kind::quasi_periodic && !base_.is_driven_twice();
-  if (!is_resolved() || (wobbles && !wobble_is_resolved())) {
+  if (!is_resolved()) {
     if (!rule_.is_fixed) return begin_anew();
     settled_.kind = Kind::undecided;
     settled_.period = 0;
@@ -203,6 +202,24 @@ void Settling::look()
     has_ended_ = true;
 }
 
+/** Follows the motion over so many base periods with its steps and with steps a quarter
+    as long. `see` is shown both states after each interval, and may change the second. */
+template <class See>
+void Settling::follow_by_both(int periods, const See& see)
+{
+  const int intervals = pair_.intervals();
+  const auto same = flow_of(rule_.step, intervals),
+             finer = flow_of(rule_.step / 4, intervals);
+  const long first = settled_.at.period * intervals;
+  State state = settled_.at.state, by_finer = state;
+  for (long k = first; k < first + static_cast<long>(periods) * intervals; ++k) {
+    finer->advance(k, by_finer);
+    same->advance(k, state);
+    see(k + 1, state, by_finer);
+  }
+  spent_beside_ += static_cast<double>(same->evaluations() + finer->evaluations());
+}
+
 /** Whether steps a quarter as long go the same way, interval by interval over one base
     period. In units of the sizes the intervals end 0.6 to 7 apart where only the steps
     keep a motion up, and at most 0.0012 apart elsewhere, where it is chaotic too (both
@@ -210,21 +227,15 @@ void Settling::look()
 bool Settling::is_resolved()
 {
   constexpr double least_range = 1e-9, apart_at_most = 0.02;
-  const int intervals = pair_.intervals();
-  const auto same = flow_of(rule_.step, intervals),
-             finer = flow_of(rule_.step / 4, intervals);
-  const long first = settled_.at.period * intervals;
-  State state = settled_.at.state;
   double most = 0;
-  for (long k = first; k < first + intervals; ++k) {
-    State by_finer = state;
-    finer->advance(k, by_finer);
-    same->advance(k, state);
+  follow_by_both(1, [&](long, const State& state, State& by_finer) {
     most = std::max(most, apart(machine_, state, by_finer));
-  }
-  spent_beside_ += static_cast<double>(same->evaluations() + finer->evaluations());
-  return most <=
-         apart_at_most * std::clamp(pair_.half_range() / length_, least_range, 1.0);
+    by_finer = state;
+  });
+  const double range = std::clamp(pair_.half_range() / length_, least_range, 1.0);
+  if (!(most <= apart_at_most * range)) return false;
+  return settled_.kind != Kind::quasi_periodic || base_.is_driven_twice() ||
+         wobble_is_resolved();
 }
 
 /** Whether steps a quarter as long follow the points of the section over 32 base periods,
@@ -235,20 +246,12 @@ bool Settling::wobble_is_resolved()
 {
   constexpr int periods = 32;
   constexpr double largest_share = 0.1;
-  const int intervals = pair_.intervals();
-  const auto same = flow_of(rule_.step, intervals),
-             finer = flow_of(rule_.step / 4, intervals);
-  const State start = settled_.at.state;
-  State state = start, by_finer = start;
   double width = 0, most = 0;
-  for (long k = 0; k < periods * intervals; ++k) {
-    finer->advance(settled_.at.period * intervals + k, by_finer);
-    same->advance(settled_.at.period * intervals + k, state);
-    if ((k + 1) % intervals != 0) continue;
-    width = std::max(width, apart(machine_, state, start));
+  follow_by_both(periods, [&](long end, const State& state, const State& by_finer) {
+    if (end % pair_.intervals() != 0) return;
+    width = std::max(width, apart(machine_, state, settled_.at.state));
     most = std::max(most, apart(machine_, state, by_finer));
-  }
-  spent_beside_ += static_cast<double>(same->evaluations() + finer->evaluations());
+  });
   return most <= largest_share * width;
 }
 

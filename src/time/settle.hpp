@@ -97,6 +97,8 @@ private:
   std::unique_ptr<Flow> flow_of(double step, int intervals) const;
   TrajectoryPair pair_from_start() const;
   void look();
+  template <class See>
+  void follow_by_both(int periods, const See& see);
   bool is_resolved();
   bool wobble_is_resolved();
   void begin_anew();
