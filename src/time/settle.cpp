@@ -187,8 +187,15 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  if (!is_resolved()) {
-    if (!rule_.is_fixed) return begin_anew();
+  /** Neighbours meet though nothing closes. */
+  const bool is_locked = settled_.kind == Kind::undecided && settled_.contracts &&
+                         !base_.is_driven_twice() && pair_.contraction() <= forgotten;
+  const bool has_steps = is_resolved();
+  if (!rule_.is_fixed && (is_locked || !has_steps)) {
+    if (is_locked && machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
+    return begin_anew();
+  }
+  if (!has_steps) {
     settled_.kind = Kind::undecided;
     settled_.period = 0;
     settled_.reason =

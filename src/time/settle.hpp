@@ -36,9 +36,10 @@ other motion begins where the integration ended.
 An impact may make the contact vibrate too fast for the step: the integration then
 diverges, or sustains a motion that Eq. 7 does not have. The motion found is therefore
 followed for one base period with a quarter of the step, for 32 where it is said to be
-quasi-periodic though one frequency drives. If that leads elsewhere, or if integration
+quasi-periodic though one frequency drives. If that leads elsewhere, if integration
 diverged, it is repeated once with such steps; with a fixed step the motion is
-`undecided`, or lost.
+`undecided`, or lost. If neighbours meet on a motion that does not close, it is repeated
+with such steps of rk4: longer ones may lock a torus to many turns.
 
 A `Settling` does the same side by side with others (side_by_side.hpp). The machine is
 that of `over`, whose angles are counted per base period; where two frequencies drive, per

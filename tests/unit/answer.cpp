@@ -109,6 +109,25 @@ TEST_CASE("A wobble that only the steps keep up is not reported")
   CHECK(settled(23.75).kind == Kind::quasi_periodic);
 }
 
+TEST_CASE("A torus that the steps lock to many turns is none that neighbours meet on")
+{
+  /** The default steps close after 407 turns, at -6.6/s; RK4 written apart, 1,200 steps in a turn:
+      -0.1/s over 4,000 turns. */
+  Parameters machine = set_1();
+  machine.stator = {.mass = 8, .natural_frequency = 300, .damping_ratio = 0.05};
+  machine.rotor = {.mass = 5, .natural_frequency = 200, .damping_ratio = 0.03};
+  machine.unbalance = 3e-4;
+  machine.gravity = 0;
+  machine.bearing.balls = 8;
+  machine.bearing.contact_stiffness = 1e10;
+  machine.bearing.clearance = 3e-5;
+  machine.bearing.cage_speed_ratio = 0.375;
+  const motion::Answer locked = from_rest_at(machine, 50);
+  CHECK(std::abs(locked.settled.lyapunov.value) < 0.3);
+  CHECK(locked.stability != "unstable");
+  CHECK(locked.period() == 0);
+}
+
 TEST_CASE("A motion that the steps keep from doubling is left")
 {
   /** Steps of usual length close after 8 turns, with the multiplier 1.246 of Eq. 7; RK4 with
