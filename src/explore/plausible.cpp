@@ -55,13 +55,21 @@ std::string doubt_of_speed(const Parameters& machine, double highest)
 constexpr double most_eccentric = 3e-3;  // [m]
 constexpr double deepest = 0.03;         // what a suspension sinks by [m]
 
-/** Of K_H, of steel balls: over the root of the diameter, or where that is not known. */
+/** Of K_H, of steel balls: over the root of the diameter, or where that is not known; of
+    the line contact of rollers of 1 to 300 mm. */
 void add_stiffness(Doubts& all, const Bearing& bearing)
 {
-  constexpr double steel = 1e11;                    // [N/m²]
+  constexpr double softest_line = 3e7, stiffest_line = 3e10;  // [N/m^(10/9)]
+  constexpr double steel = 1e11;                              // [N/m²]
   constexpr double softest = 3e8, stiffest = 1e13;  // of balls of 1 mm to 10 m [N/m^1.5]
-  if (bearing.exponent != 1.5) return;
   const double k = bearing.contact_stiffness, d = bearing.ball_diameter;
+  const bool is_line = bearing.exponent > 1.05 && bearing.exponent < 1.2;
+  all.add(
+      is_line && (k < softest_line || k > stiffest_line),
+      format("a contact stiffness of %.3g N/m^%.3g, that of no steel roller: is it in "
+             "N/m^n?",
+             k, bearing.exponent));
+  if (bearing.exponent != 1.5) return;
   const double ratio = printable_size(k / std::sqrt(d) / steel);
   all.add(d > 0 && (ratio < 0.01 || ratio > 100),
           format("a contact %.2g times as stiff as that of steel balls of this size: is "

@@ -26,54 +26,23 @@ constexpr double wanted = 1e-8, worst = 1e-6;  ///< errors of the receptances
 constexpr int right_in_a_row = 8, most_points = 200;
 constexpr double most_memory = 12e9;  ///< [bytes] of the factors
 
-/** Reverse Cuthill and McKee: the degrees of freedom of a long body from one end to the
-    other, which keeps the factors in a band. */
-std::vector<int> along_the_body(const SparseMatrix& pattern)
-{
-  const int n = static_cast<int>(pattern.rows());
-  const auto degree = [&](int i) {
-    return pattern.outerIndexPtr()[i + 1] - pattern.outerIndexPtr()[i];
-  };
-  std::vector<bool> is_seen(static_cast<std::size_t>(n));
-  const auto breadth_first = [&](int start) {
-    std::vector<int> list{start};
-    is_seen[start] = true;
-    for (std::size_t at = 0; at < list.size(); ++at) {
-      const std::size_t first = list.size();
-      for (SparseMatrix::InnerIterator it(pattern, list[at]); it; ++it)
-        if (!is_seen[it.row()]) {
-          is_seen[it.row()] = true;
-          list.push_back(static_cast<int>(it.row()));
-        }
-      std::ranges::sort(std::span(list).subspan(first), {}, degree);
-    }
-    return list;
-  };
-  std::vector<int> order;
-  for (int i = 0; i < n; ++i) {
-    if (is_seen[i]) continue;
-    /** The last of a search is far from where it began, and a good begin. */
-    int start = i;
-    for (int k = 0; k < 3; ++k) {
-      const std::vector<int> list = breadth_first(start);
-      start = list.back();
-      for (const int seen : list) is_seen[seen] = false;
-    }
-    std::ranges::copy(breadth_first(start), std::back_inserter(order));
-  }
-  std::ranges::reverse(order);
-  return order;
-}
+/** Factors of K with the springs, in an order that keeps them sparse. */
+struct StaticFactors : Eigen::SimplicialLDLT<SparseMatrix> {
+  explicit StaticFactors(const SparseMatrix& pattern) { analyzePattern(pattern); }
 
-/** Bytes of the factors of a matrix within its profile. */
-double profile_bytes(const SparseMatrix& a)
-{
-  double entries = 0;
-  for (int j = 0; j < a.outerSize(); ++j)
-    if (a.outerIndexPtr()[j] < a.outerIndexPtr()[j + 1])
-      entries += std::max(0, j - a.innerIndexPtr()[a.outerIndexPtr()[j]]);
-  return 2 * sizeof(Complex) * entries;
-}
+  /** The degrees of freedom in that order. */
+  std::vector<int> order() const
+  {
+    const auto& indices = permutationPinv().indices();
+    return {indices.begin(), indices.end()};
+  }
+
+  /** Those of the dynamic stiffness in this order. */
+  double bytes() const
+  {
+    return 2 * sizeof(Complex) * m_nonZerosPerCol.cast<double>().sum();
+  }
+};
 
 SparseMatrix reordered(const SparseMatrix& a, const std::vector<int>& order)
 {
@@ -104,17 +73,18 @@ Matrix product(const SparseMatrix& a, double sign, const Matrix& x)
   return y;
 }
 
-/** The body along its length, held at its joints. */
+/** The body in an order of its own, held at its joints. */
 struct HeldBody {
   HeldBody(const LinearBody& body, std::span<const int> joints, double k_0) : spring_(k_0)
   {
     const SparseMatrix one =
         body.m.cwiseAbs() + body.k.cwiseAbs() + body.c.cwiseAbs() + body.g.cwiseAbs();
-    order = along_the_body(one);
-    if (const double bytes = profile_bytes(reordered(one, order)); bytes > most_memory)
+    StaticFactors factors(one);
+    order = factors.order();
+    if (factors.bytes() > most_memory)
       throw BadInput(
           format("%s: the factors of its %d degrees of freedom would take %.0f GB",
-                 body.name.c_str(), body.size(), 1e-9 * bytes));
+                 body.name.c_str(), body.size(), 1e-9 * factors.bytes()));
     m = reordered(body.m, order);
     c = reordered(body.c, order);
     g = reordered(body.g, order);
@@ -122,10 +92,11 @@ struct HeldBody {
     place_.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) place_[order[i]] = static_cast<int>(i);
     std::vector<Eigen::Triplet<double, int>> held;
-    for (int row : rows(joints)) held.emplace_back(row, row, 1);
-    held_.resize(m.rows(), m.rows());
-    held_.setFromTriplets(held.begin(), held.end());
-    require_held(body.name);
+    for (int dof : joints) held.emplace_back(dof, dof, 1);
+    SparseMatrix joined(m.rows(), m.rows());
+    joined.setFromTriplets(held.begin(), held.end());
+    require_held(factors, body.k + spring_ * joined, body.name);
+    held_ = reordered(joined, order);
     factors_.isSymmetric(true);
     factors_.setPivotThreshold(1e-3);
     factors_.analyzePattern(dynamic_stiffness(1, 1));
@@ -172,15 +143,14 @@ struct HeldBody {
 
 private:
   /** Throws BadInput for what neither K nor a bearing holds. */
-  void require_held(const std::string& who) const
+  void require_held(StaticFactors& factors, const SparseMatrix& held,
+                    const std::string& who) const
   {
-    const SparseMatrix held = k + spring_ * held_;
-    const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>
-        factors(held);
+    factors.factorize(held);
     const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
     constexpr double rounding = 1e-12;
-    for (int i = 0; i < held.rows(); ++i)
-      if (!(pivots[i] > rounding * held.coeff(i, i)))
+    for (Eigen::Index i = 0; i < pivots.size(); ++i)
+      if (!(pivots[i] > rounding * held.coeff(order[i], order[i])))
         throw BadInput(not_held(who, order[i]));
   }
 

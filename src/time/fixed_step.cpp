@@ -23,15 +23,16 @@ int steps_in_interval(double period, int intervals, double longest_step)
 
 namespace {
 
-/** S_6 of Blanes and Moan: the shares of a step of the drifts and of the
-    kicks between them. The later half mirrors the first. */
-constexpr std::array<double, 3> first_drifts{0.0792036964311957, 0.353172906049774,
-                                             -0.0420650803577195};
-constexpr std::array<double, 4> drifts{
-    first_drifts[0], first_drifts[1], first_drifts[2],
-    1 - 2 * (first_drifts[0] + first_drifts[1] + first_drifts[2])};
-constexpr std::array<double, 3> kicks{0.209515106613362, -0.143851773179818,
-                                      0.5 - 0.209515106613362 + 0.143851773179818};
+/** S_6 of Blanes and Moan: the shares of a step of the first four drifts, which the later
+    three mirror, and of the kicks between them. */
+constexpr double d_1 = 0.0792036964311957, d_2 = 0.353172906049774,
+                 d_3 = -0.0420650803577195, k_1 = 0.209515106613362,
+                 k_2 = -0.143851773179818, k_3 = 0.5 - k_1 - k_2;
+constexpr std::array<double, 4> drifts{d_1, d_2, d_3, 1 - 2 * (d_1 + d_2 + d_3)};
+constexpr std::array<double, 6> kicks{k_1, k_2, k_3, k_3, k_2, k_1};
+
+/** Central differences: a kick between two half drifts. */
+constexpr std::array<double, 1> half_drift{0.5}, whole_kick{1};
 
 }  // namespace
 
@@ -41,13 +42,16 @@ FixedStep::FixedStep(const Parameters& parameters, double omega, int intervals,
       steps_(steps_in_interval(system_.period(), intervals, longest_step)),
       h_(system_.period() / (static_cast<double>(intervals) * steps_)),
       work_(rule == Rule::splitting          ? Work::splitting
+            : rule == Rule::central          ? Work::central
             : parameters.bearing.damping > 0 ? Work::rk4_damped
                                              : Work::rk4),
       is_general_(!has_intact_hertz_alone(parameters)), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
-  for (std::size_t k = 0; rule == Rule::splitting && k < drifts.size(); ++k)
-    drifts_[k] = drift_of(drifts[k]);
+  const auto shares =
+      rule == Rule::central ? std::span<const double>(half_drift) : std::span(drifts);
+  for (std::size_t k = 0; is_split() && k < shares.size(); ++k)
+    drifts_[k] = drift_of(shares[k]);
 }
 
 FixedStep::Drift<double> FixedStep::drift_of(double share) const
@@ -75,9 +79,10 @@ Angles FixedStep::angles(long first, long done) const
 
 void FixedStep::pay(long intervals)
 {
-  constexpr long of_rk4 = 4, of_splitting = 6;
-  const long evaluations =
-      (work_ == Work::splitting ? of_splitting : of_rk4) * steps_ * intervals;
+  const auto of_step = work_ == Work::splitting ? kicks.size()
+                       : work_ == Work::central ? whole_kick.size()
+                                                : 4;
+  const long evaluations = static_cast<long>(of_step) * steps_ * intervals;
   budget_.spend(static_cast<double>(evaluations));
   evaluations_ += evaluations;
 }
@@ -111,7 +116,7 @@ struct FixedStep::Row {
   DirectionOf<Number> half_rotor, half_cage, rotor, cage;
   BodiesOf<Number> q, v;
   Number h;
-  std::array<Drift<Number>, drifts.size()> drift;  ///< of splitting
+  std::array<Drift<Number>, drifts.size()> drift;  ///< where `is_split`
 
   void put(int l, const FixedStep& flow, const State& state)
   {
@@ -122,7 +127,7 @@ struct FixedStep::Row {
     put_numbers<Number>(v, l, state.velocity);
     put_numbers<Number>(h, l, flow.h_);
     Equation7<double> e = flow.system_.equation();
-    if (flow.work_ == Work::splitting) {
+    if (flow.is_split()) {
       for (std::size_t k = 0; k < drift.size(); ++k)
         put_numbers<Number>(drift[k], l, flow.drifts_[k]);
       e.c_s = e.c_r = 0;
@@ -182,11 +187,13 @@ struct FixedStep::Row {
     rotor = turned(rotor, d.rotor);
     cage = turned(cage, d.cage);
   }
-  IN_PLACE void step_of_splitting()
+  template <const auto& shares>  // of the kicks
+  IN_PLACE void split_step()
   {
-    for (int k = 0; k < 6; ++k) {
-      drift_by(drift[k < 4 ? k : 6 - k]);
-      v = v + kicks[k < 3 ? k : 5 - k] * h * acceleration<false>(q, v);
+    constexpr int count = shares.size();
+    for (int k = 0; k < count; ++k) {
+      drift_by(drift[std::min(k, count - k)]);
+      v = v + shares[k] * h * acceleration<false>(q, v);
     }
     drift_by(drift[0]);
   }
@@ -202,7 +209,9 @@ struct FixedStep::Row {
         registers, [&]() __attribute__((always_inline)) {
           for (long k = 0; k < steps; ++k)
             if constexpr (work == Work::splitting)
-              step_of_splitting();
+              split_step<kicks>();
+            else if constexpr (work == Work::central)
+              split_step<whole_kick>();
             else
               step_of_rk4<work == Work::rk4_damped>();
         });
@@ -243,6 +252,7 @@ void FixedStep::advance_lanes(std::span<const Passage> passages)
       case Work::rk4: row.template advance<Work::rk4>(steps); break;
       case Work::rk4_damped: row.template advance<Work::rk4_damped>(steps); break;
       case Work::splitting: row.template advance<Work::splitting>(steps); break;
+      case Work::central: row.template advance<Work::central>(steps); break;
     }
     is_under_way = false;
     for (int l = 0; l < width; ++l) {

@@ -1,5 +1,5 @@
 /**
-# Two rules of order 4 with a fixed step, of several motions side by side
+# Rules with a fixed step, of several motions side by side
 
 `rk4` is the classical Runge-Kutta method, the paper's rival: four evaluations of Eq. 7 in
 a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan [1]:
@@ -7,7 +7,8 @@ Eq. 7 is split into a drift, q̇ = v and v̇ = -(c/m) v, and a kick, v̇ = a(q, 
 solved exactly. A step of seven drifts and six kicks, each an evaluation, may be four
 times as long as that of rk4 at the same error, and damps no vibration of the contact,
 where rk4 takes (hω)⁶/144 of the amplitude in each step h. It applies to Hertz's contact
-alone, intact and undamped (`is_elastic_hertz`).
+alone, intact and undamped (`is_elastic_hertz`). So do `central` differences, the
+splitting of order 2 by one kick between two drifts: a rival in the tables of cost.
 
 The step divides the output interval. The directions of rotor and cage are advanced by
 complex products and computed anew after at most 128 steps.
@@ -53,14 +54,14 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
     longer than `longest_step` [s]. Throws NoSolution for more than 3e7 in a period. */
 int steps_in_interval(double period, int intervals, double longest_step);
 
-enum class Rule { rk4, splitting };
+enum class Rule { rk4, splitting, central };
 
 /** The machine's constants, and its directions along one output interval. */
 class FixedStep : public Flow {
 public:
   /** P = `intervals` per base period, each cut into the fewest steps not longer than
       `longest_step` [s]. Throws NoSolution when a base period would need more than 3e7 of
-      them. Splitting is of bearings with `is_elastic_hertz`. */
+      them. Every rule but rk4 is of bearings with `is_elastic_hertz`. */
   FixedStep(const Parameters& parameters, double omega, int intervals,
             double longest_step, Rule rule, OperationBudget budget = {});
 
@@ -92,7 +93,7 @@ public:
 
   /** What a lane does in a step; motions side by side in one row share it, and the number
       of balls. */
-  enum class Work { rk4, rk4_damped, splitting };
+  enum class Work { rk4, rk4_damped, splitting, central };
   Work work() const { return work_; }
   int balls() const { return system_.bearing().ring().count; }
   bool is_general() const { return is_general_; }
@@ -121,12 +122,14 @@ private:
   static constexpr int fresh = 128;
 
   Angles angles(long first, long done) const;  ///< steps done since interval `first`
+  bool is_split() const { return work_ == Work::splitting || work_ == Work::central; }
+
   RotorStator system_;
   Turns turns_;
   int intervals_, steps_;
   double h_;
   Angles half_;                               ///< the turns in half a step
-  std::array<Drift<double>, 4> drifts_ = {};  ///< of splitting
+  std::array<Drift<double>, 4> drifts_ = {};  ///< where `is_split`
   Work work_;
   bool is_general_;
   OperationBudget budget_;

@@ -10,9 +10,9 @@
 #include "balance/fourier_transform.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
-#include "costs/central_differences.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "time/fixed_step.hpp"
 #include "time/shooting.hpp"
 #include "time/side_by_side.hpp"
 
@@ -164,8 +164,12 @@ std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) con
 {
   const double omega = angular(task_.frequencies[speed]);
   const Setting& setting = schedule_.at(speed);
-  if (setting.method == "central")
-    return central_differences(task_.parameters, omega, intervals, setting.step);
+  if (setting.method == "central") {
+    if (!has_elastic_hertz_alone(task_.parameters))
+      throw BadInput("central: knows no contact damping and no defect");
+    return std::make_unique<FixedStep>(task_.parameters, omega, intervals, setting.step,
+                                       Rule::central);
+  }
   const std::string method = setting.stepper();
   return flow(task_.parameters, omega,
               {.method = method,

@@ -128,7 +128,8 @@ class Check(Case):
                             (LOOSE + '[bearing.defect]\nsurface = "outer_race"\ndepth_um = 2\nwidth_rad = 0.1\nangle_rad = -90', "an angle of -90 rad"),
                             (LOOSE + "[bearing.parallel]\nstop_stiffness_N_per_m = 1e6\nstop_gap_m = 80", "a stop after 80 m"),
                             (NAMED + "radial_clearance_um = -1000", "more than a tenth of the ball"),
-                            (MANY.replace(f"= {BALLS}", "= 9").replace(f"= {HERTZ}", "= 2.7e5"), "a contact stiffness of 2.7e+05 N/m^1.5")]:
+                            (MANY.replace(f"= {BALLS}", "= 9").replace(f"= {HERTZ}", "= 2.7e5"), "a contact stiffness of 2.7e+05 N/m^1.5"),
+                            (MANY.replace(f"_m1p5 = {HERTZ}", "_mn = 5e10\ncontact_exponent = 1.11"), "a contact stiffness of 5e+10 N/m^1.11")]:
             self.assertIn(word, self.checked(HELD + more)[1].header)
         self.assertIn("1500 Hz are 90000 turns a minute", self.run_explore("orbit", self.file("set1.toml", MACHINE), "--frequency", 1500, "--points", 2).stderr)
         radial = HELD + NAMED.replace("6205", "6205 C3") + "radial_clearance_m = 2.05e-5"

@@ -104,7 +104,7 @@ TEST_CASE("Motions side by side have the bits that they have alone")
 {
   constexpr int most = 8, rounds = 3;
   std::vector<Runner> runners;
-  const Rule undamped = GENERATE(Rule::rk4, Rule::splitting);
+  const Rule undamped = GENERATE(Rule::rk4, Rule::splitting, Rule::central);
   for (int n = 0; n < most; ++n) runners.emplace_back(n, undamped);
 
   std::vector<std::vector<Bits>> alone(most);
