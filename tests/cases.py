@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import mmread
 
+from tests.machines import table
 from tests.truth.independent import Model, displacements, errors
 from tests.unit.shaft import two_disks
 from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed, some
@@ -446,6 +447,36 @@ class Uncertainties(Case):
             "--frequency", 23.494, "--points", 4)
         self.assertNotEqual(table.value("regime"), "chaotic")
         self.assertLess(table.value("lyapunov") - 3 * table.value("lyapunov_uncertainty"), 0)
+
+    def test_no_kind_and_no_rate_is_one_of_the_steps(self):
+        """Vertical rotors, against RK4 with tangents written apart: a rate that the steps made positive; a laminar
+        stretch of chaos, whose error was 0.3; chaos that the steps did not see; fourteen turns without a multiplier."""
+        def at(speed, *, balls, stiffness, clearance, cage, stator=None, **rotor):
+            text = (table("stator", **(stator or {"rigid": True})) + table("rotor", **rotor)
+                    + table("bearing", balls=balls, contact_stiffness_N_per_m1p5=stiffness, radial_clearance_m=clearance, cage_speed_ratio=cage)
+                    + table("gravity", acceleration_m_per_s2=0))
+            return self.table("orbit", self.file("own.toml", 'title = "own"\n' + text), "--frequency", speed, "--points", 4)
+        free = {"natural_frequency_Hz": 0}
+        slow = at(112.14, balls=8, stiffness=1.6e10, clearance=1.97e-5, cage=3 / 8, mass_kg=15.2, damping_N_s_per_m=1740, unbalance_kg_m=2.85e-4,
+                  stator={"mass_kg": 9.5, "natural_frequency_Hz": 102, "damping_ratio": 0.198}, **free)
+        self.assertAlmostEqual(slow.value("lyapunov"), -1.9, delta=0.3)
+        self.assertNotEqual(slow.value("regime"), "chaotic")
+        long = at(87, balls=11, stiffness=7.35e9, clearance=1.9e-5, cage=4 / 11, mass_kg=2.17, damping_N_s_per_m=40.3, unbalance_kg_m=7.85e-5,
+                  stator={"mass_kg": 2.11, "natural_frequency_Hz": 31.05, "damping_ratio": 0.00799}, **free)
+        self.assertEqual(self.said(long, "period", "stability"), [14, "stable"])
+        self.assertAlmostEqual(long.value("lyapunov"), -2.18, delta=0.07)
+        drifts = at(59.05, balls=16, stiffness=5.9e9, clearance=5.72e-5, cage=3 / 8, mass_kg=7.82, damping_N_s_per_m=767, unbalance_kg_m=1.12e-4,
+                    stator={"mass_kg": 14.2, "natural_frequency_Hz": 216.8, "damping_ratio": 0.00545}, **free)
+        self.assertEqual(self.said(drifts, "stability", "error_largest", "contact"), ["undecided", None, "no"])
+        named = 'title = "own"\n' + table("stator", rigid=True) + "[rotor]\n{rotor}\n[bearing]\n{bearing}\n" + table("gravity", acceleration_m_per_s2=0)
+        for speed, rotor, bearing, regime in [
+                (53.303, "mass_kg = 2.262\nnatural_frequency_Hz = 62.1\ndamping_ratio = 0.0127\nunbalance_kg_m = 8.127e-5",
+                 'designation = "6308 C4"', "quasi-periodic"),
+                (16.128, "mass_kg = 4.285\nnatural_frequency_Hz = 0\ndamping_N_s_per_m = 154.5\nunbalance_kg_m = 1.046e-4",
+                 'designation = "6206"', "chaotic")]:
+            own = self.table("orbit", self.file("own.toml", named.format(rotor=rotor, bearing=bearing)), "--frequency", speed, "--points", 4)
+            self.assertEqual(own.value("regime"), regime)
+            self.assertLess(own.value("error_largest", 0), 0.01)
 
     def test_starts_on_one_chaotic_motion_are_one_attractor(self):
         """Its means and scatters over 256 base periods differ by more than a tenth."""

@@ -46,17 +46,21 @@ bool is_complex_pair(const Multipliers& multipliers)
   return complex;
 }
 
-/** The modulus of the multiplier that passes the circle there: of those nearest to +1, to
-    -1, of the pair nearest to it. */
-double passing_modulus(Bifurcation kind, const Multipliers& multipliers)
+/** How far a multiplier is from where it passes the circle there: from +1, from -1, one
+    of a pair from the circle. */
+double distance(Bifurcation kind, Complex mu)
 {
-  const auto off = [kind](Complex mu) {
-    if (kind == Bifurcation::plus_one) return std::abs(1.0 - mu);
-    if (kind == Bifurcation::period_doubling) return std::abs(1.0 + mu);
-    return mu.imag() != 0 ? std::abs(1 - std::abs(mu))
-                          : std::numeric_limits<double>::infinity();
-  };
-  return std::abs(*std::ranges::min_element(multipliers, {}, off));
+  if (kind == Bifurcation::plus_one) return std::abs(1.0 - mu);
+  if (kind == Bifurcation::period_doubling) return std::abs(1.0 + mu);
+  return mu.imag() != 0 ? std::abs(1 - std::abs(mu))
+                        : std::numeric_limits<double>::infinity();
+}
+
+/** The nearest. */
+Complex passing(Bifurcation kind, const Multipliers& multipliers)
+{
+  return *std::ranges::min_element(multipliers, {},
+                                   [kind](Complex mu) { return distance(kind, mu); });
 }
 
 /** Multipliers outside the unit circle. */
@@ -104,6 +108,7 @@ struct Walk {
       StablePoint& before = own[places[i - 1]];
       if (before.examined() || !own[places[i]].examined()) continue;
       --result.failed;
+      --result.asked;
       examine(before);
     }
     result.points.push_back(own.front());
@@ -113,6 +118,7 @@ struct Walk {
 
   void examine(StablePoint& point)
   {
+    ++result.asked;
     try {
       point.floquet = floquet_at(point.point);
     } catch (const NoSolution& error) {
@@ -133,8 +139,11 @@ struct Walk {
       pass(a, middle);
       return pass(middle, b);
     }
-    result.points.insert(result.points.end(), own.begin() + static_cast<long>(a) + 1,
-                         own.begin() + static_cast<long>(b) + 1);
+    const std::string verdict = own[a].verdict();
+    for (std::size_t k = a + 1; k <= b; ++k) {
+      if (verdict == own[b].verdict()) own[k].neighbours = own[a].verdict();
+      result.points.push_back(own[k]);
+    }
   }
 
   /** What happens between the last point and `next`, then `next`. */
@@ -198,8 +207,14 @@ struct Walk {
         !is_complex_pair(point.floquet.multipliers))
       return;
     if (kind == Bifurcation::plus_one && (at_fold(a, point) || at_fold(b, point))) return;
+    /** Where nothing passes, the multipliers of another motion begin. */
+    constexpr double passes = 0.05;
+    if (!(distance(kind, passing(kind, point.floquet.multipliers)) < passes)) {
+      ++result.missed;
+      return;
+    }
     const auto modulus = [kind](const StablePoint& p) {
-      return passing_modulus(kind, p.floquet.multipliers);
+      return std::abs(passing(kind, p.floquet.multipliers));
     };
     const double speeds = std::abs(b.point.motion.omega - a.point.motion.omega);
     point.uncertainty = tolerance * point.point.motion.omega +

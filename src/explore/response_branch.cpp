@@ -69,10 +69,11 @@ PeriodicMotion found_start(const ResponseTask& task)
   }
   PeriodicMotion start = motion::find_periodic(search);
   if (!start.found())
-    throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
-                            task.parameters.file.c_str(), task.harmonics,
-                            task.upwards ? "from" : "to", hertz,
-                            start.newton.reason().c_str()));
+    throw NoSolution(
+        format("%s: no solution found with %d harmonics at --%s %g Hz: %s; "
+               "a sweep without --harmonics has all speeds",
+               task.parameters.file.c_str(), task.harmonics, task.upwards ? "from" : "to",
+               hertz, start.newton.reason().c_str()));
   return start;
 }
 
@@ -121,11 +122,13 @@ PeriodicMotion torus_start(const ResponseTask& task)
 const ResponseFields stability_fields{
     {"multiplier", "-",
      "largest modulus of the Floquet multipliers of the motion of Eq. 7 found there; -1 "
-     "not found, or one of many points close together that was left out",
+     "not found, or left out as one of many points close together",
      &ResponseRow::multiplier},
     {"multiplier_change", "-", "uncertainty of it: change at the last refinement",
      &ResponseRow::multiplier_change},
-    {"verdict", "-", "of the machine: stable, unstable, undecided",
+    {"verdict", "-",
+     "of the machine: stable, unstable, undecided; of a point left out that of both "
+     "neighbours",
      &ResponseRow::verdict},
     {"bifurcation", "-",
      "of the machine: plus-one, period-doubling: a multiplier passes 1, -1; "
@@ -162,11 +165,16 @@ void put_branch(Table& table, const ResponseTask& task, const Branch& branch)
   table.value("branch_evaluations", branch.evaluations);
 }
 
-std::string stopped_at(const ResponseTask& task, double omega, const std::string& end)
+std::string stopped_at(const ResponseTask& task, const Branch& branch)
 {
-  return format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-                task.parameters.file.c_str(), task.hertz(omega),
-                task.upwards ? "to" : "from", task.hertz(task.range().to), end.c_str());
+  return format(
+      "%s: the branch stopped at %g Hz, before --%s %g Hz: %s%s",
+      task.parameters.file.c_str(), task.hertz(branch.points.back().motion.omega),
+      task.upwards ? "to" : "from", task.hertz(task.range().to), branch.end.c_str(),
+      branch.kind == BranchEnd::work
+          ? ""
+          : "; another end of the range or more harmonics may lead on, a sweep "
+            "without a method has all speeds");
 }
 
 /**
@@ -248,7 +256,7 @@ public:
     const bool is_whole = main.covered || (task_.request.subharmonic > 1 &&
                                            main.kind == BranchEnd::came_back);
     const std::string& file = task_.parameters.file;
-    if (!is_whole) return stopped_at(task_, main.points.back().motion.omega, main.end);
+    if (!is_whole) return stopped_at(task_, main);
     if (!missing_beside_.empty()) return file + ": isolated branches: " + missing_beside_;
     return missing_multipliers_.empty() ? "" : file + ": " + missing_multipliers_;
   }
@@ -304,9 +312,9 @@ BranchStability BalanceBranch::multipliers_of(const Branch& branch, std::size_t 
                        *decimal(format("%.2g", task_.hertz(p.uncertainty)))});
   if (missing_multipliers_.empty() && task_.budget.used_up())
     missing_multipliers_ = format(
-        "the budget is used up, more with --budget: %d of %zu points are "
+        "the budget is used up, more with --budget: %d of %d points judged are "
         "undecided, %d bifurcations were seen and not located",
-        stability.failed, stability.points.size(), stability.missed);
+        stability.failed, stability.asked, stability.missed);
   return stability;
 }
 
@@ -320,6 +328,7 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
                   .branch = number,
                   .bifurcation = name_of(at.bifurcation)};
   std::ranges::copy(amplitude(motion), row.amplitude.begin());
+  row.verdict = at.verdict();
   if (at.examined()) put_multipliers(row, at.floquet);
   const bool has_lines = task_.request.waterfall && number == 1;
   if (has_further_ || has_lines || !task_.request.harmonics_of.empty())
@@ -461,10 +470,9 @@ Exploration branch_by_shooting(const ResponseTask& task)
   if (request.stability) table.row_line("undecided", {1, undecided, 0});
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
-  const std::string missing =
-      !branch.covered ? stopped_at(task, branch.points.back().motion.omega, branch.end)
-      : is_missing    ? machine.file + ": " + why
-                      : "";
+  const std::string missing = !branch.covered ? stopped_at(task, branch)
+                              : is_missing    ? machine.file + ": " + why
+                                              : "";
   put_complete(table, missing);
   conclude(table, machine, touches, task.budget);
   return {std::move(table), {}, missing};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -81,23 +82,19 @@ std::vector<Ended> ended_at(const Sweep& sweep, std::span<const double> speeds,
   return all;
 }
 
-/** The rows of an interrupted table of the same question, and how many speeds it has
-    passed; one without a row has been lost. */
-struct Resumed {
-  std::vector<std::vector<Cell>> rows = {};
-  std::size_t speeds = 0;
-};
-
-Resumed rows_to_resume(const Sweep& sweep)
+/** The rows of an interrupted table of the same question, by the numbers of their
+    speeds. */
+std::map<std::size_t, std::vector<Cell>> rows_to_resume(const Sweep& sweep)
 {
   const ResponseRequest& request = sweep.request;
-  Resumed known;
+  std::map<std::size_t, std::vector<Cell>> known;
   if (!request.resume) return known;
   if (!request.columns.empty() && request.plot)
-    throw BadInput("--plot: of a resumed table needs all its columns; without --columns");
+    throw BadInput("--plot: not of a resumed table with --columns; leave out --plot");
   if (!request.columns.empty() && request.columns != "all" &&
       !(request.columns + ",").starts_with("f,"))
     throw BadInput("--resume: needs f as the first of --columns");
+  std::size_t next = 0;
   const auto add = [&](const std::string&, const std::vector<std::string>& words) {
     std::vector<Cell> cells;
     for (const std::string& word : words) {
@@ -108,12 +105,12 @@ Resumed rows_to_resume(const Sweep& sweep)
     const auto is_next = [&](double speed) {
       return Cell(speed).text() == cells.front().text();
     };
-    const auto rest = std::span(sweep.speeds).subspan(known.speeds);
+    const auto rest = std::span(sweep.speeds).subspan(next);
     const auto found = std::ranges::find_if(rest, is_next);
     if (cells.size() != sweep.table.printed() || found == rest.end())
       throw BadInput("holds other points");
-    known.speeds += static_cast<std::size_t>(found - rest.begin()) + 1;
-    known.rows.push_back(std::move(cells));
+    next += static_cast<std::size_t>(found - rest.begin());
+    known[next++] = std::move(cells);
   };
   each_row_of(*sweep.request.resume, "response", sweep.table.beginning(), add);
   return known;
@@ -124,7 +121,10 @@ Exploration computed(Sweep& sweep)
   const ResponseRequest& request = sweep.request;
   const Allowance& budget = request.budget;
   Table& table = sweep.table;
-  const auto [known, passed] = rows_to_resume(sweep);
+  const auto known = rows_to_resume(sweep);
+  std::vector<std::size_t> numbers;  // of the speeds that are computed
+  for (std::size_t k = 0; k < sweep.speeds.size(); ++k)
+    if (!known.contains(k)) numbers.push_back(k);
   const bool is_streamed = request.format != TableFormat::json;
   bool has_rows = false;
   /** Nothing is written before there is a row. */
@@ -132,35 +132,40 @@ Exploration computed(Sweep& sweep)
     if (is_streamed && !std::exchange(has_rows, true))
       table.stream(write, request.format);
   };
-  for (const auto& cells : known) {
-    begin();
-    table.printed_row(cells);
-  }
+  auto put_known = [&, row = known.begin()](std::size_t before) mutable {
+    for (; row != known.end() && row->first < before; ++row) {
+      begin();
+      table.printed_row(row->second);
+    }
+  };
   double spent = 0;
-  std::size_t lost = passed - known.size(), next = passed;
-  std::string missing, first_lost = "in the table that was resumed";
+  std::size_t lost = 0, next = 0;
+  std::string missing, first_lost;
   const double most = budget.evaluations > 0 ? budget.evaluations
                                              : std::numeric_limits<double>::infinity();
   const std::size_t block = sweep.side_by_side,
                     group = sweep.is_chain
                                 ? 1
                                 : std::max<std::size_t>(block, 2) * most_threads();
-  while (next < sweep.speeds.size() && missing.empty()) {
-    const auto speeds = std::span(sweep.speeds)
-                            .subspan(next, std::min(group, sweep.speeds.size() - next));
+  while (next < numbers.size() && missing.empty()) {
+    std::vector<double> speeds;
+    for (std::size_t k = next; k < std::min(next + group, numbers.size()); ++k)
+      speeds.push_back(sweep.speeds[numbers[k]]);
     const double each = std::min(sweep.evaluations_of_one, most - spent);
     const auto blocks =
         computed_in_parallel("", (speeds.size() + block - 1) / block, [&](std::size_t k) {
           const std::size_t first = k * block;
           return ended_at(
-              sweep, speeds.subspan(first, std::min(block, speeds.size() - first)), each);
+              sweep,
+              std::span(speeds).subspan(first, std::min(block, speeds.size() - first)),
+              each);
         });
     const bool is_short = each < sweep.evaluations_of_one || budget.is_over();
     std::vector<Ended> ended;
     for (const auto& one : blocks) ended.insert(ended.end(), one.begin(), one.end());
     for (auto& [row, cost] : ended) {
       spent += cost;
-      const double frequency = sweep.speeds[next];
+      const double frequency = sweep.speeds[numbers[next]];
       const bool is_known = row.has_value() && row.get().period != -2;
       if (spent > most || (is_short && !is_known)) {
         missing =
@@ -170,7 +175,7 @@ Exploration computed(Sweep& sweep)
                             : "--resume FILE goes on with the rows that are written");
         break;
       }
-      ++next;
+      put_known(numbers[next++]);
       try {
         ResponseRow& found = row.get();
         found.frequency = frequency;  // to the last digit, which --resume looks for
@@ -184,14 +189,15 @@ Exploration computed(Sweep& sweep)
       }
     }
   }
-  if (next == lost)
+  put_known(sweep.speeds.size());
+  if (known.empty() && next == lost)
     throw NoSolution(missing.empty() ? request.parameter_file +
                                            ": no speed has a value, " + first_lost
                                      : missing);
   if (missing.empty() && lost > 0)
     missing = format("%s: %zu of %zu speeds have no value, the first ",
                      request.parameter_file.c_str(), lost, sweep.speeds.size()) +
-              first_lost;
+              first_lost + (sweep.is_chain ? "" : "; --resume FILE tries them again");
   put_complete(table, missing);
   /** Rows that were there already do not say whether a ball touched. */
   if (known.empty() || sweep.touches) put_contact(table, sweep.machine, sweep.touches);

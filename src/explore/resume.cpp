@@ -1,5 +1,6 @@
 #include "explore/resume.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -22,9 +23,15 @@ try {
         "the tab-separated table");
   if (!beginning.starts_with(found)) {
     const std::string writer = writer_of_other_schema(file);
-    throw BadInput(writer.empty()
-                       ? "was made with other settings"
-                       : "was written by " + writer + ", start this " + what + " anew");
+    if (!writer.empty())
+      throw BadInput("was written by " + writer + ", start this " + what + " anew");
+    const auto [here, there] = std::ranges::mismatch(beginning, found);
+    const auto line_of = [](const std::string& text, std::string::const_iterator at) {
+      const auto first = std::find(std::make_reverse_iterator(at), text.rend(), '\n');
+      return std::string(first.base(), std::find(at, text.end(), '\n'));
+    };
+    throw BadInput("was made with other settings: \"" + line_of(found, there) +
+                   "\", not \"" + line_of(beginning, here) + "\"");
   }
   for (std::string row; std::getline(in, row) && !in.eof() && !row.starts_with('#');) {
     std::vector<std::string> cells;

@@ -14,14 +14,8 @@ namespace rotor_stator::motion {
 
 int Answer::period_number() const
 {
-  switch (kind()) {
-    case Kind::rest: return 1;
-    case Kind::periodic: return period();
-    case Kind::quasi_periodic: return -1;
-    case Kind::chaotic: return 0;
-    case Kind::undecided: break;
-  }
-  return -2;
+  constexpr int others[] = {-2, 1, 0, -1, 0};  // by kind
+  return period() > 0 ? period() : others[static_cast<int>(kind())];
 }
 
 namespace {
@@ -72,12 +66,12 @@ std::optional<State> closed(const Parameters& machine, double omega, const State
   return {};
 }
 
-/** The stability of a closed motion, and λ from its largest multiplier. */
+/** The stability of the closed motion through `state`, and λ from its largest
+    multiplier. */
 void judge_closed(Answer& answer, const Parameters& machine, double omega,
-                  const OperationBudget& budget)
+                  const State& state, const OperationBudget& budget)
 try {
-  const Floquet floquet =
-      multipliers_through(machine, omega, answer.settled.at.state, budget);
+  const Floquet floquet = multipliers_through(machine, omega, state, budget);
   answer.stability = floquet.verdict();
   answer.multiplier = floquet.largest();
   answer.uncertainty = floquet.uncertainty();
@@ -115,7 +109,7 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
       format("shooting over %d base periods from where integration settles", k);
   if (request.is_measured) {
     answer.error = difference(answer.motion, record(*finer, finer_error));
-    judge_closed(answer, machine, omega, budget);
+    judge_closed(answer, machine, omega, *finer, budget);
   }
   answer.motion.points_per_period = request.points;
   answer.motion.omega = answer.omega;
@@ -131,9 +125,8 @@ bool can_begin_earlier(const Answer& answer, long periods, const OperationBudget
 {
   constexpr double times = 3, motions = 2;
   const Settled& settled = answer.settled;
-  const auto all =
-      static_cast<double>(settled.at.period - settled.before.period + periods);
-  const double share = all * 2 * std::numbers::pi / answer.omega / settled.seconds;
+  const long all = settled.at.period - settled.before.period + periods;
+  const double share = angular(static_cast<double>(all)) / answer.omega / settled.seconds;
   return times * share * settled.evaluations / motions < budget.left();
 }
 
@@ -144,8 +137,7 @@ Motion recorded_from(const Instant& from, const Answer& answer, const Request& r
 {
   double step = step_of(request, answer);
   /** Not longer than an interval, else half of it would change nothing. */
-  const std::string method = recording_method(request, answer);
-  if (method == "splitting")
+  if (const auto method = recording_method(request, answer); method == "splitting")
     step = std::min(step, 2 * std::numbers::pi / answer.omega / request.points /
                               steps_of_rk4(method));
   const auto stepper = [&](int intervals) {
@@ -470,6 +462,15 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
   return all;
 }
 
+/** Whether only the steps keep up the motion: a closed one that Eq. 7 leaves, or one whose
+    neighbours meet, but not where it is recorded with half the step. */
+static bool is_kept_up(const Answer& found)
+{
+  constexpr double apart = 0.05;
+  return found.stability == "unstable" ||
+         (found.settled.contracts && found.error && found.error->largest > apart);
+}
+
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
@@ -485,11 +486,14 @@ Answer answer(const Parameters& parameters, const Request& request,
     Answer found = std::move(observed.answer.get());
     if (found.kind() == Kind::chaotic && observed.seen.has_value())
       found.seen = observed.seen.get();
-    complete(found, question.request, budget);
-    if (found.stability != "unstable" || request.step > 0 || times == most_times)
-      return found;
-    /** The steps have kept up a motion that Eq. 7 leaves: from beside it by shorter
-        ones. */
+    const bool is_last = request.step > 0 || times == most_times;
+    try {
+      complete(found, question.request, budget);
+    } catch (const NoSolution&) {
+      if (is_last || !is_kept_up(found)) throw;
+    }
+    if (is_last || !is_kept_up(found)) return found;
+    /** From beside it by shorter ones. */
     question.start = rotor_stator::state_of(vector_of(found.settled.at.state) +
                                             beside * state_scales(found.machine));
     question.request.step_ratio =

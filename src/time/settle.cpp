@@ -187,12 +187,9 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  /** Neighbours meet though nothing closes. */
-  const bool is_locked = settled_.kind == Kind::undecided && settled_.contracts &&
-                         !base_.is_driven_twice() && pair_.contraction() <= forgotten;
   const bool has_steps = is_resolved();
-  if (!rule_.is_fixed && (is_locked || !has_steps)) {
-    if (is_locked && machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
+  if (!rule_.is_fixed && (is_subtle() || !has_steps)) {
+    if (is_subtle() && machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
     return begin_anew();
   }
   if (!has_steps) {
@@ -207,6 +204,16 @@ void Settling::look()
     put_on_zero();
   else
     has_ended_ = true;
+}
+
+/** Whether the steps may decide what it is: neighbours meet though nothing closes, or they
+    part so slowly that it takes long to tell. */
+bool Settling::is_subtle() const
+{
+  const bool is_locked = settled_.kind == Kind::undecided && settled_.contracts &&
+                         !base_.is_driven_twice() && is_over();
+  return is_locked ||
+         (settled_.kind == Kind::chaotic && pair_.seconds() > rule_.longest / 2);
 }
 
 /** Follows the motion over so many base periods with its steps and with steps a quarter
@@ -270,6 +277,14 @@ static double error_of_rate(double step, double period)
   return std::pow(angle, 5) / 120 / step;
 }
 
+/** Whether the pair has forgotten where it came from. A motion that was chaotic before may
+    be so again: its neighbours must meet twice as closely. */
+bool Settling::is_over() const
+{
+  constexpr double chaotic = 5;  // ln of the growth
+  return pair_.contraction() <= (pair_.growth() > chaotic ? 2 : 1) * forgotten;
+}
+
 /** What the pair says of the motion so far. */
 Settled Settling::seen() const
 {
@@ -282,7 +297,8 @@ Settled Settling::seen() const
   s.doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
   const double rate = s.lyapunov.value, doubt = s.doubt;
   const bool is_long = s.seconds > rule_.longest / 2;
-  s.contracts = rate + doubt < 0;
+  constexpr double least = 0.01;  // ln of a contraction that is one
+  s.contracts = rate + doubt + least / s.seconds < 0;
   if (is_at_rest()) {
     s.kind = Kind::rest;
     return s;
@@ -294,11 +310,11 @@ Settled Settling::seen() const
   else if (rate > (is_long ? 1 : 2) * doubt && grows_throughout())
     s.kind = Kind::chaotic;
   else if (base_.is_driven_twice() && s.contracts)
-    s.kind = pair_.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
+    s.kind = is_over() ? Kind::quasi_periodic : Kind::undecided;
   else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 && is_long)
     s.kind = Kind::quasi_periodic;
   if (s.kind != Kind::undecided || !s.reason.empty()) return s;
-  if (s.contracts && pair_.contraction() <= forgotten)
+  if (s.contracts && is_over())
     s.reason = format(
         "neighbours contract by %.3g/s, but the motion does not repeat itself within %d "
         "base periods",

@@ -38,8 +38,9 @@ diverges, or sustains a motion that Eq. 7 does not have. The motion found is the
 followed for one base period with a quarter of the step, for 32 where it is said to be
 quasi-periodic though one frequency drives. If that leads elsewhere, if integration
 diverged, it is repeated once with such steps; with a fixed step the motion is
-`undecided`, or lost. If neighbours meet on a motion that does not close, it is repeated
-with such steps of rk4: longer ones may lock a torus to many turns.
+`undecided`, or lost. It is repeated with such steps of rk4 if neighbours meet on a motion
+that does not close, or part so slowly that chaos is found after half of `longest` only:
+longer steps may lock a torus to many turns, or keep up the growth.
 
 A `Settling` does the same side by side with others (side_by_side.hpp). The machine is
 that of `over`, whose angles are counted per base period; where two frequencies drive, per
@@ -69,7 +70,7 @@ struct Settled {
   int period = 0;          ///< K of a closed section, else 0
   Exponent lyapunov{0};    ///< λ and its standard error [1/s]
   double doubt = 0;        ///< d [1/s]
-  bool contracts = false;  ///< λ + d < 0
+  bool contracts = false;  ///< λ + d < 0, by 1 % of the distance at least
   double remainder = 1;    ///< what the contraction has left of any distance [-]
   Instant at;              ///< a state on the motion: see above
   double step = 0;         ///< longest of rk4 that was taken, or of the same error [s]
@@ -102,6 +103,8 @@ private:
   void follow_by_both(int periods, const See& see);
   bool is_resolved();
   bool wobble_is_resolved();
+  bool is_over() const;
+  bool is_subtle() const;
   void begin_anew();
   Settled seen() const;
   bool is_at_rest() const;

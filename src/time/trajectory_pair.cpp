@@ -92,9 +92,13 @@ double TrajectoryPair::pull_back()
 
 Exponent TrajectoryPair::exponent() const
 {
-  const Exponent rate =
-      batch_mean({growths_.begin() + std::ssize(growths_) / 2, growths_.end()});
-  return {rate.value / period_, rate.error / period_};
+  const auto from = [&](std::ptrdiff_t first) {
+    return batch_mean({growths_.begin() + first, growths_.end()});
+  };
+  const std::ptrdiff_t count = std::ssize(growths_), quarter = (count - count / 2) / 2;
+  const BatchMean rate = from(count / 2);
+  const double trend = std::abs(from(count - quarter).value - rate.value);
+  return {rate.value / period_, std::max(rate.error, trend) / period_};
 }
 
 Instant TrajectoryPair::since(double contraction) const

@@ -56,11 +56,14 @@ public:
   /** ln of the growth of the distance in each base period. */
   const std::vector<double>& growths() const { return growths_; }
 
-  /** λ of the later half of all base periods, by ten batches of them. */
+  /** λ of the later half of all base periods. Its error is that of the mean of ten
+      batches, or what the last quarter differs by: the transient may not be over. */
   Exponent exponent() const;
 
-  /** ln of what is left of any distance since it was largest; at most 0. */
+  /** ln of what is left of any distance since it was largest; at most 0. And ln of how
+      much larger than at the start that was. */
   double contraction() const { return log_distance_ - highest_; }
+  double growth() const { return highest_; }
 
   /** The last instant since which any distance has shrunk by a factor whose logarithm is
       `contraction` < 0; without one, where it was largest. */

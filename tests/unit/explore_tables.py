@@ -166,10 +166,10 @@ class Branch(Case):
         rest = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(part[:-13]) + "\n"))
         self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole if row[0] != "#"])
         holed = [row for row in part[:-13] if not row.startswith("20.5263")]  # a speed that was lost
-        again = self.run_explore(*thirds, "--resume", self.file("part.tsv", "\n".join(holed) + "\n"))
-        self.assertEqual((again.returncode, "1 of 20 speeds have no value" in again.stderr), (3, True), again.stderr)
+        again = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(holed) + "\n"))
+        self.assertEqual([row for row in again if row[0] != "#"], [row for row in whole if row[0] != "#"])
         self.refused("needs f as the first", *thirds, "--columns", "amp_x_r,f", "--resume", "part.tsv")
-        self.refused("needs all its columns", *thirds, "--columns", "f,amp_x_r", "--resume", "part.tsv", "--plot", "a.svg")
+        self.refused("leave out --plot", *thirds, "--columns", "f,amp_x_r", "--resume", "part.tsv", "--plot", "a.svg")
         damped = self.file("damped.toml", MACHINE.replace("cage_speed_ratio", "contact_damping_s_per_m = 5.0\ncage_speed_ratio"))
         self.assertEqual(self.table("response", damped, "--from", 40, "--to", 42, "--count", 3).value("contact"), "yes")
         loose = self.file("loose.toml", MACHINE.replace("= 2e-5", "= 2e-2"))
@@ -339,7 +339,7 @@ class Stability(Case):
     def test_what_the_budget_does_not_allow_is_said(self):
         result = self.run_explore("response", self.machine, *WHOLE, "--harmonics", 6, "--stability", "--budget", "2.7e7")
         self.assertEqual(result.returncode, 3)
-        self.assertIn("points are undecided", result.stderr)
+        self.assertIn("points judged are undecided", result.stderr)
         self.assertIn("used up", result.stderr)
         self.assertNotIn("nan", result.stdout)
         table = Table.of(result.stdout)

@@ -219,8 +219,10 @@ TEST_CASE("Where some points are skipped, a change of stability is found all the
   for (const StablePoint& p : some.points) {
     if (!p.examined()) ++unexamined;
     for (const StablePoint& q : all.points)
-      if (p.examined() && q.point.arc == p.point.arc)
-        CHECK(p.floquet.largest() == Approx(q.floquet.largest()));
+      if (q.point.arc == p.point.arc) {
+        CHECK(std::string(p.verdict()) == q.verdict());
+        if (p.examined()) CHECK(p.floquet.largest() == Approx(q.floquet.largest()));
+      }
   }
   CHECK(unexamined > 10);
 }
@@ -236,6 +238,18 @@ TEST_CASE("A point whose multipliers cannot be had is kept without them")
   CHECK(stability.failed == static_cast<int>(branch.points.size()));
   CHECK(stability.failure == "no more work");
   for (const StablePoint& p : stability.points) CHECK_FALSE(p.examined());
+}
+
+TEST_CASE("Where the multipliers of another motion begin nothing bifurcates")
+{
+  Followed followed(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
+  const auto stability =
+      stability_along(followed.curve, followed.branch, [](const BranchPoint& p) {
+        const double mu = p.motion.omega < 1.115 ? 8.5 : -21;
+        return Floquet{.multipliers = {mu, 0.5}, .converged = true};
+      });
+  CHECK(speeds(stability, {Bifurcation::plus_one, Bifurcation::period_doubling}).empty());
+  CHECK(stability.missed == 2);
 }
 
 TEST_CASE("Bifurcations are the same whichever way the branch is walked")
