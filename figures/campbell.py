@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import heading, run
 
-KINDS = ((1, "C1", "forward"), (-1, "C0", "backward"), (0, "0.5", "planar"))
+KINDS = ((1, "C1", "forward"), (-1, "C0", "backward"), (0, "0.5", "planar"), (2, "C2", "mixed"))
 NEAR = 0.03  # of the height: numbers of modes that would overlap
 
 
@@ -53,7 +53,7 @@ def draw(table):
               "o", ms=6, mfc="none", color="k", label="critical speed" if critical else None)
     axes.set(xlim=(f.min(), f.max()), ylim=(0, top), xlabel=speed_axis, ylabel="frequency [Hz]")
     axes.grid(color="0.9", lw=0.6)
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, frameon=False, borderaxespad=0.2)
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=5, frameon=False, borderaxespad=0.2)
     heading(figure, "Whirl frequencies against speed (Campbell diagram)", table)
     return figure
 

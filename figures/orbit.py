@@ -35,7 +35,7 @@ def draw_relative(axes, table, bearing, turns, where):
     u, v = (1e6 * (table[f"{axis}_r{bearing}"] - table[f"{axis}_s{bearing}"]) for axis in "xy")
     clearance = 1e6 * table.value(f"clearance{bearing}")
     has_circle = 0 < clearance < 20 * np.hypot(u, v).max()
-    draw_orbit(axes, u, v, turns, RELATIVE, f"rotor {where}" + (f"\n(dashed: clearance {clearance:.4g} µm)" if has_circle else ""))
+    draw_orbit(axes, u, v, turns, RELATIVE, f"rotor {where}" + (f"\nclearance {clearance:.4g} µm dashed" if has_circle else ""))
     if has_circle:
         angle = np.linspace(0, 2 * np.pi, 200)
         axes.plot(clearance * np.cos(angle), clearance * np.sin(angle), "--", color="#404040", lw=1)

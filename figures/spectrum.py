@@ -67,15 +67,15 @@ def draw(table, measured=None):
         axes.plot(orders[shown], height[shown], "o", ms=3.5, color=colour)
         names = table["name"][shown]
         for place in chosen(names, orders[shown], height[shown], width):
-            axes.annotate(str(names[place]), (orders[shown][place], height[shown][place]),
+            axes.annotate(str(names[place]), (max(orders[shown][place], 0.012 * width), height[shown][place]),
                           xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
                           fontsize=10)
             length = (10 + 6.6 * len(names[place])) / 205  # of the name, over the panel's height
             room = max(room, np.log(height[shown][place] / bottom) / np.log(top / bottom) / max(0.25, 1 - length))
         axes.set_ylabel(f"amplitude of the {name} [µm]")
         if measured is not None:
-            axes.plot(measured["f"] / table.value("frequency"), 1e6 * measured["amplitude"], color="#808080", lw=0.9,
-                      zorder=0, label="measured")
+            axes.plot(measured["f"] / table.value("frequency"), 1e6 * measured["amplitude"], "-" if len(measured["f"]) > 50 else ".-",
+                      color="#808080", lw=0.9, zorder=0, label="measured")
             axes.legend(loc="upper right", frameon=False)
     grid[0].set(yscale="log", ylim=(bottom, bottom * (top / bottom) ** room), xlim=(0, width))
     hertz = table.value("frequency")

@@ -13,9 +13,10 @@ namespace rotor_stator::explore {
 
 namespace {
 
-const char* word(int whirl)
+const char* word(Whirl whirl)
 {
-  return whirl > 0 ? "forward" : whirl < 0 ? "backward" : "planar";
+  constexpr const char* words[] = {"backward", "planar", "forward", "mixed"};
+  return words[static_cast<int>(whirl) + 1];
 }
 
 /** Where the frequency of a mode is that of the order, between two speeds at which their
@@ -44,12 +45,14 @@ std::vector<Column> columns_of(bool critical)
             {"mode", "-", "by frequency at that speed, from 1"},
             {"frequency", "Hz", "of the mode there"},
             {"damping", "-", "ratio to critical damping"},
-            {"whirl", "word", "forward, backward or planar"}};
+            {"whirl", "word",
+             "forward, backward, planar; mixed: forward at some places only"}};
   return {{"f", "Hz", "speed of rotation"},
           {"mode", "-", "by frequency at this speed, from 1"},
           {"frequency", "Hz", "of the damped mode"},
           {"damping", "-", "ratio to critical damping"},
-          {"whirl", "-", "1 forward, -1 backward, 0 planar"}};
+          {"whirl", "-",
+           "1 forward, -1 backward, 0 planar, 2 mixed: forward at some places only"}};
 }
 
 }  // namespace
@@ -104,7 +107,8 @@ Exploration explore_campbell(const CampbellRequest& request)
       for (int number = 1; const Mode& mode : modes.back()) {
         if (warning.empty()) warning = doubt(mode);
         if (!request.critical)
-          table.row({speed, number++, mode.frequency, mode.damping, mode.whirl});
+          table.row({speed, number++, mode.frequency, mode.damping,
+                     static_cast<int>(mode.whirl)});
       }
     }
     for (const auto& [value, name] : orders)

@@ -113,22 +113,25 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
         (k_ + skew_) * q + lambda * (c * q) + lambda * lambda * (mass_ * q);
     const auto r = factor_.triangularView<Eigen::Lower>();
     const double residual = r.solve(rest).norm() / (factor_.transpose() * q).norm();
-    /** The ellipses of all places that are shown, weighted by their areas. */
-    double x = 0, y = 0, turning = 0;
+    /** The areas of the ellipses of all places that are shown. */
+    double x = 0, y = 0, forward = 0, backward = 0;
     for (int i = 0; i + 1 < machine_.shown - first_; i += 2) {
       x += std::norm(q[i]);
       y += std::norm(q[i + 1]);
-      turning += 2 * (q[i] * std::conj(q[i + 1])).imag();
+      const double area = 2 * (q[i] * std::conj(q[i + 1])).imag();
+      (area > 0 ? forward : backward) += std::abs(area);
     }
     constexpr double line = 0.02;  // by the ratio of the axes
-    const bool is_line = std::abs(turning) <= line * (x + y);
+    constexpr double few = 0.1;    // that turn the other way
+    const auto [less, more] = std::minmax(forward, backward);
     constexpr double rounding = 1e-12;
     const double damping = -lambda.real() / std::abs(lambda);
     list.push_back({lambda.imag() / angular(1),
                     std::abs(damping) > rounding ? damping : 0,
-                    is_line       ? 0
-                    : turning > 0 ? 1
-                                  : -1,
+                    more <= line * (x + y) ? Whirl::planar
+                    : less > few * more    ? Whirl::mixed
+                    : forward > backward   ? Whirl::forward
+                                           : Whirl::backward,
                     x > y ? 'x' : 'y', residual});
   }
   return list;

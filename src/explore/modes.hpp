@@ -24,9 +24,13 @@ ill-conditioned eigenvalue.
 
 namespace rotor_stator::explore {
 
+/** By the ellipses of all places shown; mixed: those that turn the other way than most
+    have a tenth of their area. */
+enum class Whirl { backward = -1, planar, forward, mixed };
+
 struct Mode {
   double frequency, damping;  ///< [Hz], ratio to critical damping [-]
-  int whirl;                  ///< 1 forward, -1 backward, 0 neither
+  Whirl whirl;
   char axis;                  ///< along which it moves more, x or y
   double residual;  ///< relative change of stiffness with which it would be exact [-]
 };

@@ -88,8 +88,8 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
       throw BadInput("--count: with two frequencies the branch chooses its speeds");
     if (request.samples || request.stability)
       throw BadInput(
-          "--samples, --stability: not where n*omega_cage/omega is not a whole number; "
-          "orbit judges");
+          std::string(request.stability ? "--stability" : "--samples") +
+          ": not where n*omega_cage/omega is not a whole number; orbit judges");
   }
 }
 

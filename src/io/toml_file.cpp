@@ -231,7 +231,11 @@ void set_number(toml::node& at, const std::string& key, double value,
   toml::array* const array = at.as_array();
   const double k = array ? decimal(word).value_or(0) : 0;
   if (!table && !(array && k >= 1 && k <= static_cast<double>(array->size())))
-    throw BadInput(word + ": names nothing in the parameter file");
+    throw BadInput(word + ": names nothing in the parameter file" +
+                   (array ? format("; its %zu entries are counted from 1, as in "
+                                   "bearing.2.balls",
+                                   array->size())
+                          : ""));
   const auto place = static_cast<std::size_t>(k) - 1;
   if (dot != key.npos)
     return set_number(

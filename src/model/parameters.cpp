@@ -126,8 +126,10 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
   } else {
     if (root.has_tables(bearing_key))
-      root.fail(bearing_key,
-                "must be [bearing]; several are of bodies given by matrices");
+      root.fail(
+          bearing_key,
+          "must be [bearing]; several are of bodies given by matrices, which explore "
+          "shaft writes");
     StrictToml bearing = root.table(bearing_key);
     parameters.bearing = read_bearing(bearing, parameters.derived);
   }

@@ -177,6 +177,29 @@ class Large(Case):
         self.assertIn("symmetric\n2 2 3\n1 1 900000.0\n2 1 0.\n", (self.folder / "rotor/K.mtx").read_text(encoding="utf-8"))
         np.testing.assert_allclose(self.table(*run)["x_r"], before["x_r"], rtol=1e-9)
 
+    def test_whirl_is_forward_backward_planar_or_mixed(self):
+        """Two places, joined by springs that make them move alike along x and against each other along y: the areas of the ellipses of both, from eigenvectors here."""
+        turn, f = np.array([[0, 1.0], [-1, 0]]), 45
+        m, k = np.diag([4.0, 4, 3, 3]), np.diag([4e5, 4.2e5, 9e5, 9.1e5])
+        k[:2, 2:] = k[2:, :2] = np.diag([-2e5, 2e5])
+        g = np.block([[2 * turn, 0 * turn], [0 * turn, 0 * turn]])
+        self.folder_of("rotor", m, 1e-6 * k, g, k)
+        own = self.file("own.toml", 'title = "own"\n[stator]\nrigid = true\n[rotor]\nmatrices = "rotor"\nbearing_dofs = [1, 2]\n'
+                        "output_dofs = [3, 4]\nvertical_dofs = []\n[bearing]\nballs = 9\ncontact_stiffness_N_per_m1p5 = 1e10\n"
+                        "radial_clearance_m = 1e-5\ncage_speed_ratio = 0.4\n[gravity]\nacceleration_m_per_s2 = 0\n")
+        table = self.table("campbell", own, "--from", f, "--to", f, "--count", 1)
+        c = 1e-6 * k + 2 * np.pi * f * g
+        values, vectors = np.linalg.eig(np.block([[np.zeros((4, 4)), np.eye(4)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
+        kinds = []
+        for mode in sorted((mode for mode in range(8) if values[mode].imag > 0), key=lambda mode: values[mode].imag):
+            x, y = vectors[0:4:2, mode], vectors[1:4:2, mode]
+            areas = 2 * (x * y.conj()).imag
+            less, more = sorted([areas[areas > 0].sum(), -areas[areas < 0].sum()])
+            size = (abs(x)**2 + abs(y)**2).sum()
+            kinds.append(0 if more < 0.02 * size else 2 if less > 0.1 * more else 1 if areas.sum() > 0 else -1)
+        self.assertEqual(list(table["whirl"]), kinds)
+        self.assertIn(2, kinds)
+
     def test_matrices_of_ross(self):
         """Methods as those of ROSS's Rotor. A transposed G would turn the whirl round; it is the only matrix that shows it."""
         spec = importlib.util.spec_from_file_location("from_ross", "peers/from_ross.py")
