@@ -188,10 +188,12 @@ void Settling::look()
     return;
   }
   const bool has_steps = is_resolved();
-  if (!rule_.is_fixed && (is_subtle() || !has_steps)) {
-    if (is_subtle() && machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
+  if (!rule_.is_fixed && is_subtle()) {
+    start_ = pair_.at();
+    if (machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
     return begin_anew();
   }
+  if (!rule_.is_fixed && !has_steps) return begin_anew();
   if (!has_steps) {
     settled_.kind = Kind::undecided;
     settled_.period = 0;
