@@ -468,6 +468,9 @@ class Uncertainties(Case):
         drifts = at(59.05, balls=16, stiffness=5.9e9, clearance=5.72e-5, cage=3 / 8, mass_kg=7.82, damping_N_s_per_m=767, unbalance_kg_m=1.12e-4,
                     stator={"mass_kg": 14.2, "natural_frequency_Hz": 216.8, "damping_ratio": 0.00545}, **free)
         self.assertEqual(self.said(drifts, "stability", "error_largest", "contact"), ["undecided", None, "no"])
+        apart = at(30, balls=9, stiffness=1e10, clearance=1e-3, cage=0.41, mass_kg=5, natural_frequency_Hz=15, damping_ratio=0.05, unbalance_kg_m=1e-4)
+        self.assertEqual(self.said(apart, "base", "regime", "period", "stability"), ["two", "periodic", 1, "stable"])
+        self.assertAlmostEqual(apart.value("lyapunov"), -0.05 * 2 * math.pi * 15, delta=1e-5)
         named = 'title = "own"\n' + table("stator", rigid=True) + "[rotor]\n{rotor}\n[bearing]\n{bearing}\n" + table("gravity", acceleration_m_per_s2=0)
         for speed, rotor, bearing, regime in [
                 (53.303, "mass_kg = 2.262\nnatural_frequency_Hz = 62.1\ndamping_ratio = 0.0127\nunbalance_kg_m = 8.127e-5",

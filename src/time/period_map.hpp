@@ -19,6 +19,7 @@ they may differ from those of the exact motion far more than the amplitudes do. 
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <complex>
 #include <vector>
 
@@ -49,8 +50,11 @@ struct Floquet {
 
   double largest() const { return std::abs(multipliers.front()); }
 
-  /** Uncertainty of the largest modulus. */
-  double uncertainty() const { return change * std::max(1.0, largest()); }
+  /** Uncertainty of the largest modulus, rounding included. */
+  double uncertainty() const
+  {
+    return std::max(change, 1e-14) * std::max(1.0, largest());
+  }
 
   /** Whether the largest modulus is below 1 by more than its uncertainty. */
   bool stable() const { return converged && largest() + uncertainty() < 1; }

@@ -305,7 +305,7 @@ Settled Settling::seen() const
     s.kind = Kind::rest;
     return s;
   }
-  if (!base_.is_driven_twice() && closes(s)) return s;
+  if (closes(s)) return s;
   if (s.at.period < 0) return s;
   if (!(0.5 * s.seconds >= least_ * (1 - 1e-9)))
     s.reason = format("%.3g s are too short to tell", s.seconds);
@@ -363,7 +363,8 @@ bool Settling::closes(Settled& s) const
     return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
   };
   const int k = closing_period(all, closed * size * nearer_by(1));
-  if (k == 0) return false;
+  /** Where two frequencies drive, a motion closes if no ball touches: after a turn. */
+  if (k == 0 || (base_.is_driven_twice() && k > 1)) return false;
   const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);
   for (int fewer = 1; fewer < k; ++fewer)

@@ -8,8 +8,9 @@ section decide the kind of the motion, the first of these that holds:
 
 - `rest`: half of the range of every displacement, and speed times base period, are below
   1e-12 of clearance plus static deflection.
-- `periodic`: one frequency drives, and the section, one point in each base period,
-  repeats itself to 1e-6 of the vibration after K ≤ 16 of them, the smallest such K.
+- `periodic`: the section, one point in each base period, repeats itself to 1e-6 of the
+  vibration after K ≤ 16 of them, the smallest such K; where two frequencies drive, K = 1
+  turn, without contact.
 - `chaotic`: λ > 2d, or λ > d after half of `longest`, and the growth does not fade: in
   the last quarter it is at least e⁵, and more than the root of that in the quarter
   before.
