@@ -48,7 +48,8 @@ struct StablePoint {
   Floquet floquet;  ///< without multipliers where they were not computed
   Bifurcation bifurcation = Bifurcation::none;
   double uncertainty = 0;  ///< of the bifurcation's speed [rad/s]
-  const char* neighbours = "undecided";  ///< verdict of both, of a point that was left out
+  const char* neighbours =
+      "undecided";  ///< verdict of both, of a point that was left out
 
   bool examined() const { return !floquet.multipliers.empty(); }
   const char* verdict() const { return examined() ? floquet.verdict() : neighbours; }
@@ -58,9 +59,10 @@ using FloquetAt = std::function<Floquet(const BranchPoint&)>;
 
 struct BranchStability {
   std::vector<StablePoint> points;  ///< of the branch, added ones, bifurcations, in order
-  int missed = 0;  ///< changes of sign without a place on the branch or a multiplier there
-  int failed = 0;  ///< points whose multipliers could not be computed
-  int asked = 0;   ///< points of the branch whose multipliers were wanted
+  int missed =
+      0;  ///< changes of sign without a place on the branch or a multiplier there
+  int failed = 0;            ///< points whose multipliers could not be computed
+  int asked = 0;             ///< points of the branch whose multipliers were wanted
   std::string failure = {};  ///< why the first of them could not
 };
 

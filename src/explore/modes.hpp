@@ -31,7 +31,7 @@ enum class Whirl { backward = -1, planar, forward, mixed };
 struct Mode {
   double frequency, damping;  ///< [Hz], ratio to critical damping [-]
   Whirl whirl;
-  char axis;                  ///< along which it moves more, x or y
+  char axis;        ///< along which it moves more, x or y
   double residual;  ///< relative change of stiffness with which it would be exact [-]
 };
 

@@ -30,8 +30,7 @@ double step_of(const Request& request, const Answer& answer)
   return answer.settled.step > 0 ? std::min(step, answer.settled.step) : step;
 }
 
-/** What integrates the transient and what is observed: RK4 where it is asked for, else
-    the machine's own method. */
+/** What integrates the transient and what is observed. */
 const char* settling_method(const Request& request)
 {
   return request.method == "rk4" ? "rk4" : "auto";
@@ -83,8 +82,7 @@ try {
   answer.stability = "undecided";
 }
 
-/** False where shooting does not close the motion: the integrated one is then
-    recorded. */
+/** Whether shooting closes the motion; else the integrated one is recorded. */
 bool close(Answer& answer, const Request& request, const OperationBudget& budget)
 {
   const int k = answer.settled.period;
@@ -415,9 +413,7 @@ private:
   int intervals_;
   std::unique_ptr<Flow> flow_;
   State state_, before_;
-  /** Sums of differences from the first instant lose no digits to the static
-      deflection. */
-  Displacements origin_;
+  Displacements origin_;  ///< sums of differences from it lose no digits
   long at_;
   std::vector<State> path_ = {};
   std::vector<PeriodSums> periods_ = {};
@@ -462,8 +458,8 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
   return all;
 }
 
-/** Whether only the steps keep up the motion: a closed one that Eq. 7 leaves, or one whose
-    neighbours meet, but not where it is recorded with half the step. */
+/** Whether only the steps keep up the motion: a closed one that Eq. 7 leaves, or one
+    whose neighbours meet, but not where it is recorded with half the step. */
 static bool is_kept_up(const Answer& found)
 {
   constexpr double apart = 0.05;

@@ -208,8 +208,8 @@ void Settling::look()
     has_ended_ = true;
 }
 
-/** Whether the steps may decide what it is: neighbours meet though nothing closes, or they
-    part so slowly that it takes long to tell. */
+/** Whether the steps may decide what it is: neighbours meet though nothing closes, or
+    they part so slowly that it takes long to tell. */
 bool Settling::is_subtle() const
 {
   const bool is_locked = settled_.kind == Kind::undecided && settled_.contracts &&
@@ -279,8 +279,8 @@ static double error_of_rate(double step, double period)
   return std::pow(angle, 5) / 120 / step;
 }
 
-/** Whether the pair has forgotten where it came from. A motion that was chaotic before may
-    be so again: its neighbours must meet twice as closely. */
+/** Whether the pair has forgotten where it came from. A motion that was chaotic before
+    may be so again: its neighbours must meet twice as closely. */
 bool Settling::is_over() const
 {
   constexpr double chaotic = 5;  // ln of the growth
