@@ -47,9 +47,8 @@ struct StablePoint {
   BranchPoint point;
   Floquet floquet;  ///< without multipliers where they were not computed
   Bifurcation bifurcation = Bifurcation::none;
-  double uncertainty = 0;  ///< of the bifurcation's speed [rad/s]
-  const char* neighbours =
-      "undecided";  ///< verdict of both, of a point that was left out
+  double uncertainty = 0;                ///< of the bifurcation's speed [rad/s]
+  const char* neighbours = "undecided";  ///< verdict of both, where it was left out
 
   bool examined() const { return !floquet.multipliers.empty(); }
   const char* verdict() const { return examined() ? floquet.verdict() : neighbours; }

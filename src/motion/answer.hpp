@@ -79,9 +79,10 @@ struct Answer {
 
 /** Throws NoSolution when the integration breaks down, when the error stays above the
     tolerance or is unknown, and when the budget ends in the record. A budget that ends
-    before leaves the kind undecided, with the reason in `settled`. Where the
-    motion that closes has a multiplier above 1, the steps have kept it up: the question
-    is asked again from beside it with steps a quarter as long, twice at most. */
+    before leaves the kind undecided, with the reason in `settled`. Where the motion that
+    closes has a multiplier above 1, or neighbours meet on a motion whose error is above
+    0.05, the steps have kept it up: the question is asked again from beside it with steps
+    a quarter as long, twice at most. */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
