@@ -280,11 +280,12 @@ static double error_of_rate(double step, double period)
 }
 
 /** Whether the pair has forgotten where it came from. A motion that was chaotic before
-    may be so again: its neighbours must meet twice as closely. */
+    may be so again: its neighbours must meet twice as closely, if there is time. */
 bool Settling::is_over() const
 {
   constexpr double chaotic = 5;  // ln of the growth
-  return pair_.contraction() <= (pair_.growth() > chaotic ? 2 : 1) * forgotten;
+  const bool is_twice = pair_.growth() > chaotic && pair_.seconds() < rule_.longest;
+  return pair_.contraction() <= (is_twice ? 2 : 1) * forgotten;
 }
 
 /** What the pair says of the motion so far. */
