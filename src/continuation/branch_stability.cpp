@@ -108,7 +108,6 @@ struct Walk {
       StablePoint& before = own[places[i - 1]];
       if (before.examined() || !own[places[i]].examined()) continue;
       --result.failed;
-      --result.asked;
       examine(before);
     }
     result.points.push_back(own.front());
@@ -118,7 +117,6 @@ struct Walk {
 
   void examine(StablePoint& point)
   {
-    ++result.asked;
     try {
       point.floquet = floquet_at(point.point);
     } catch (const NoSolution& error) {
@@ -139,9 +137,10 @@ struct Walk {
       pass(a, middle);
       return pass(middle, b);
     }
-    const std::string verdict = own[a].verdict();
+    const char* const verdict = own[a].verdict();
+    const bool is_of_both = std::string(verdict) == own[b].verdict();
     for (std::size_t k = a + 1; k <= b; ++k) {
-      if (verdict == own[b].verdict()) own[k].neighbours = own[a].verdict();
+      if (is_of_both) own[k].neighbours = verdict;
       result.points.push_back(own[k]);
     }
   }

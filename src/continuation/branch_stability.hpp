@@ -58,10 +58,8 @@ using FloquetAt = std::function<Floquet(const BranchPoint&)>;
 
 struct BranchStability {
   std::vector<StablePoint> points;  ///< of the branch, added ones, bifurcations, in order
-  int missed =
-      0;  ///< changes of sign without a place on the branch or a multiplier there
+  int missed = 0;            ///< changes of sign that could not be located on the branch
   int failed = 0;            ///< points whose multipliers could not be computed
-  int asked = 0;             ///< points of the branch whose multipliers were wanted
   std::string failure = {};  ///< why the first of them could not
 };
 

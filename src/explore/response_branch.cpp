@@ -310,11 +310,12 @@ BranchStability BalanceBranch::multipliers_of(const Branch& branch, std::size_t 
       table_.row_line("bifurcation",
                       {number, name_of(p.bifurcation), task_.hertz(p.point.motion.omega),
                        *decimal(format("%.2g", task_.hertz(p.uncertainty)))});
+  const auto examined = std::ranges::count_if(stability.points, &StablePoint::examined);
   if (missing_multipliers_.empty() && task_.budget.used_up())
     missing_multipliers_ = format(
-        "the budget is used up, more with --budget: %d of %d points judged are "
+        "the budget is used up, more with --budget: %d of %td points judged are "
         "undecided, %d bifurcations were seen and not located",
-        stability.failed, stability.asked, stability.missed);
+        stability.failed, stability.failed + examined, stability.missed);
   return stability;
 }
 

@@ -31,8 +31,8 @@ void require_method(const std::string& method, std::vector<std::string> others)
 
 void require_bearing_of(const std::string& method, const Parameters& parameters)
 {
-  const bool is_of_plain =
-      method == "bsimp" || method == "msbdf" || method == "splitting";
+  const bool is_of_plain = method == "bsimp" || method == "msbdf" ||
+                           method == "splitting" || method == "central";
   if (is_of_plain && !has_elastic_hertz_alone(parameters))
     throw BadInput(
         "--method " + method +

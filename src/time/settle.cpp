@@ -187,14 +187,13 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  const bool has_steps = is_resolved();
   if (!rule_.is_fixed && is_subtle()) {
     start_ = pair_.at();
     if (machine_.bodies->takes_explicit_steps()) rule_.method = "rk4";
     return begin_anew();
   }
-  if (!rule_.is_fixed && !has_steps) return begin_anew();
-  if (!has_steps) {
+  if (!is_resolved()) {
+    if (!rule_.is_fixed) return begin_anew();
     settled_.kind = Kind::undecided;
     settled_.period = 0;
     settled_.reason =

@@ -37,7 +37,7 @@ other motion begins where the integration ended.
 An impact may make the contact vibrate too fast for the step: the integration then
 diverges, or sustains a motion that Eq. 7 does not have. The motion found is therefore
 followed for one base period with a quarter of the step, for 32 where it is said to be
-quasi-periodic though one frequency drives. If that leads elsewhere, if integration
+quasi-periodic though one frequency drives. If that leads elsewhere, or if integration
 diverged, it is repeated once with such steps; with a fixed step the motion is
 `undecided`, or lost. It goes on with such steps of rk4 if neighbours meet on a motion
 that does not close, or part so slowly that chaos is found after half of `longest` only:

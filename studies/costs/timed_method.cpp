@@ -165,8 +165,7 @@ std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) con
   const double omega = angular(task_.frequencies[speed]);
   const Setting& setting = schedule_.at(speed);
   if (setting.method == "central") {
-    if (!has_elastic_hertz_alone(task_.parameters))
-      throw BadInput("central: knows no contact damping and no defect");
+    require_bearing_of(setting.method, task_.parameters);
     return std::make_unique<FixedStep>(task_.parameters, omega, intervals, setting.step,
                                        Rule::central);
   }
