@@ -6,8 +6,6 @@ page all mathematics is set, nothing is wider than the window, no message of the
 the search finds what is there; text has contrast and pictures a text (axe-core, where npm has it). With FULL in the
 environment, two other locales give the same bytes. The animation moves, and shows the motion of the table.
 """
-import contextlib
-import json
 import os
 import re
 import shutil
@@ -23,7 +21,7 @@ from urllib.parse import quote, unquote, urlsplit
 
 import numpy as np
 
-from tests.support.browser import browser, served
+from tests.support.browser import BrowserCase, served
 from tests.support.explore import FULL, Table, some
 
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
@@ -175,28 +173,22 @@ class Files(unittest.TestCase):
                 self.assertEqual([name for name in made if (out / name).read_bytes() != (BOOK / name).read_bytes()], [], locale)
 
 
-class Browser(unittest.TestCase):
+class Browser(BrowserCase):
     """What a browser shows."""
 
     @classmethod
     def setUpClass(cls):
-        stack = contextlib.ExitStack()
-        cls.addClassCleanup(stack.close)
-        cls.address = served("build", stack.callback)
-        cls.driver = browser(stack.enter_context(tempfile.TemporaryDirectory()))
-        stack.callback(cls.driver.quit)
-        cls.driver.get("about:blank")
+        super().setUpClass()
+        cls.address = served("build", cls.addClassCleanup)
 
     def setUp(self):
-        self.driver.get_log("browser"), self.driver.get_log("performance")
+        super().setUp()
         self.show(WIDE)
 
     def tearDown(self):
         """No message of the browser, and nothing asked of another place."""
-        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")], [])
-        asked = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
-        addresses = {entry["params"]["request"]["url"] for entry in asked if entry["method"] == "Network.requestWillBeSent"}
-        self.assertEqual({a for a in addresses if not a.startswith((self.address, "file:///", "data:", "chrome:", "about:"))}, set())
+        super().tearDown()
+        self.assertEqual({a for a in self.requests() if not a.startswith((self.address, "file:///", "data:", "chrome:", "about:"))}, set())
 
     def show(self, width, scheme="light"):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
@@ -208,9 +200,6 @@ class Browser(unittest.TestCase):
         self.driver.get(self.address + folder + page)
         self.driver.execute_async_script(
             "const done = arguments[0]; window.MathJax && MathJax.Hub ? MathJax.Hub.Queue(done) : done()")
-
-    def js(self, script, *arguments):
-        return self.driver.execute_script(script, *arguments)
 
     def test_every_page_fits_and_has_its_mathematics_and_figures(self):
         """In a narrow window, the worst for both, figures in a wide one too: pages with figures, those of SHOWN, every sixth with

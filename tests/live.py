@@ -8,19 +8,17 @@ it was.
 
 Usage: python3 -m tests.live   (from the project's root, after `make live` and `make build/explore`)
 """
-import json
 import random
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import urllib.parse
 import xml.dom.minidom
 from pathlib import Path
 
-from tests.support.browser import browser, served
+from tests.support.browser import BrowserCase, served
 from tests.support.explore import EXPLORE, MACHINE
 
 PAGE = Path("build/live/index.html")
@@ -55,29 +53,16 @@ def note(text, key):
     return next((line[len(key) + 4:] for line in text.splitlines() if line.startswith(f"# {key}: ")), "")
 
 
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.scratch.name)
-        cls.driver = browser(cls.folder, "window-size=1400,1000", "enable-precise-memory-info")
-        cls.addClassCleanup(cls.scratch.cleanup)
-        cls.addClassCleanup(cls.driver.quit)
+class Page(BrowserCase):
+    FLAGS = ("window-size=1400,1000", "enable-precise-memory-info")
 
     def setUp(self):
-        self.driver.get("about:blank")
-        self.driver.get_log("browser"), self.driver.get_log("performance")
+        super().setUp()
         self.open(PAGE.resolve().as_uri())
-
-    def tearDown(self):
-        self.assertEqual(self.driver.get_log("browser"), [])
 
     def open(self, address):
         self.driver.get(address)
         self.settled()
-
-    def js(self, script, *arguments):
-        return self.driver.execute_script(script, *arguments)
 
     def wait(self, condition, seconds=60):
         """Until the JavaScript expression is true."""
@@ -376,12 +361,10 @@ class Page(unittest.TestCase):
     def test_no_request_from_file_or_server(self):
         for address in (PAGE.resolve().as_uri(), served(PAGE.parent, self.addCleanup) + "index.html"):
             self.driver.get("about:blank")
-            self.driver.get_log("performance")
+            self.requests()
             self.open(address)
             self.wait("['stable', 'unstable', 'undecided'].includes($('verdict').className)")
-            sent = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
-            urls = {message["params"]["request"]["url"] for message in sent if message["method"] == "Network.requestWillBeSent"}
-            self.assertEqual({url for url in urls if not url.startswith(("data:", "blob:"))}, {address})
+            self.assertEqual({url for url in self.requests() if not url.startswith(("data:", "blob:"))}, {address})
 
     def memory(self):
         self.driver.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
