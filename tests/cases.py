@@ -448,13 +448,31 @@ class Uncertainties(Case):
         self.assertNotEqual(table.value("regime"), "chaotic")
         self.assertLess(table.value("lyapunov") - 3 * table.value("lyapunov_uncertainty"), 0)
 
+    def test_doubled_chaotic_and_nearly_doubled(self):
+        """The last one's transient alternates from turn to turn, and leaves 2.5 % less each time: two turns later it is
+        nearer than one turn later."""
+        def at(speed, **values):
+            return self.table("orbit", self.file("own.toml", changed(**values)), "--frequency", speed)
+        doubled, chaos = at(20), at(13.4)
+        self.assertEqual(doubled.value("period"), 2)
+        self.assertAlmostEqual(doubled.value("multiplier") / 0.3895, 1, delta=1e-3)
+        self.assertLess(doubled.error("error"), 1e-7)
+        self.assertEqual(self.said(chaos, "regime", "error_largest"), ["chaotic", None])
+        self.assertGreater(chaos.value("lyapunov"), 3 * chaos.value("lyapunov_uncertainty"))
+        alternates = at(48.495, radial_clearance_m=129e-6)
+        self.assertEqual(self.said(alternates, "period", "method"), [1, "shooting"])
+        self.assertAlmostEqual(alternates.value("multiplier") / 0.97547, 1, delta=1e-4)
+
     def test_no_kind_and_no_rate_is_one_of_the_steps(self):
         """Vertical rotors, against RK4 with tangents written apart: a rate that the steps made positive; a laminar
-        stretch of chaos, whose error was 0.3; chaos that the steps did not see; fourteen turns without a multiplier."""
-        def at(speed, *, balls, stiffness, clearance, cage, stator=None, **rotor):
+        stretch of chaos, whose error was 0.3; chaos that the steps did not see; fourteen turns without a multiplier; a
+        torus of which the steps close after 407 turns, at -6.6/s, where RK4 has -0.1/s over 4,000 turns. With weight: steps
+        of usual length close after 8 turns, with the multiplier 1.246 of Eq. 7, RK4 with 2,000 steps in a turn after
+        16; a doubling of 2.7e-6 of the amplitude, where the motion of one turn has the multiplier -1.032."""
+        def at(speed, *, balls, stiffness, clearance, cage, stator=None, gravity=0, **rotor):
             text = (table("stator", **(stator or {"rigid": True})) + table("rotor", **rotor)
                     + table("bearing", balls=balls, contact_stiffness_N_per_m1p5=stiffness, radial_clearance_m=clearance, cage_speed_ratio=cage)
-                    + table("gravity", acceleration_m_per_s2=0))
+                    + table("gravity", acceleration_m_per_s2=gravity))
             return self.table("orbit", self.file("own.toml", 'title = "own"\n' + text), "--frequency", speed, "--points", 4)
         free = {"natural_frequency_Hz": 0}
         slow = at(112.14, balls=8, stiffness=1.6e10, clearance=1.97e-5, cage=3 / 8, mass_kg=15.2, damping_N_s_per_m=1740, unbalance_kg_m=2.85e-4,
@@ -471,6 +489,20 @@ class Uncertainties(Case):
         apart = at(30, balls=9, stiffness=1e10, clearance=1e-3, cage=0.41, mass_kg=5, natural_frequency_Hz=15, damping_ratio=0.05, unbalance_kg_m=1e-4)
         self.assertEqual(self.said(apart, "base", "regime", "period", "stability"), ["two", "periodic", 1, "stable"])
         self.assertAlmostEqual(apart.value("lyapunov"), -0.05 * 2 * math.pi * 15, delta=1e-5)
+        locked = at(50, balls=8, stiffness=1e10, clearance=3e-5, cage=3 / 8, mass_kg=5, unbalance_kg_m=3e-4,
+                    natural_frequency_rad_per_s=200, damping_ratio=0.03,
+                    stator={"mass_kg": 8, "natural_frequency_rad_per_s": 300, "damping_ratio": 0.05})
+        self.assertLess(abs(locked.value("lyapunov")), 0.3)
+        self.assertEqual(locked.value("regime"), "quasi-periodic")
+        for speed, period in ((41.25, 16), (41.27, 8)):
+            doubled = at(speed, balls=8, stiffness=1.605e10, clearance=4.241e-5, cage=3 / 8, gravity=9.81, **free,
+                         mass_kg=1.13, damping_N_s_per_m=393.4, unbalance_kg_m=2.101e-5,
+                         stator={"mass_kg": 7.16, "natural_frequency_rad_per_s": 587.6, "damping_ratio": 0.125})
+            self.assertEqual(self.said(doubled, "period", "stability"), [period, "stable"])
+        hardly = at(46.5, balls=16, stiffness=1e11, clearance=2e-5, cage=1 / 2, gravity=9.81, mass_kg=2.96,
+                    natural_frequency_rad_per_s=500, damping_ratio=0.02, unbalance_kg_m=0.05,
+                    stator={"mass_kg": 5.87, "natural_frequency_rad_per_s": 150, "damping_ratio": 0.05})
+        self.assertEqual(self.said(hardly, "period", "stability"), [2, "stable"])
         named = 'title = "own"\n' + table("stator", rigid=True) + "[rotor]\n{rotor}\n[bearing]\n{bearing}\n" + table("gravity", acceleration_m_per_s2=0)
         for speed, rotor, bearing, regime in [
                 (53.303, "mass_kg = 2.262\nnatural_frequency_Hz = 62.1\ndamping_ratio = 0.0127\nunbalance_kg_m = 8.127e-5",

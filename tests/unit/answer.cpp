@@ -41,18 +41,6 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
             .epsilon(1e-5));
 }
 
-TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
-{
-  const motion::Answer doubled = from_rest_at(set_1(), 20);
-  CHECK(doubled.period_number() == 2);
-  CHECK(doubled.multiplier == Approx(0.3895).epsilon(1e-3));
-  CHECK(doubled.error->larger() < 1e-7);
-  const motion::Answer chaos = from_rest_at(set_1(), 13.4);
-  CHECK(chaos.period_number() == 0);
-  CHECK(chaos.settled.lyapunov.value > 3 * chaos.settled.lyapunov.error);
-  CHECK(!chaos.error);
-}
-
 /** 25 over the slowest decay rate would be 4 s. */
 TEST_CASE("A motion that closes is seen before t = 0, and is the one of shooting")
 {
@@ -107,64 +95,6 @@ TEST_CASE("A wobble that only the steps keep up is not reported")
   CHECK(closed.period == 1);
   CHECK(closed.step == step_at(machine, hertz(24)) / 4);
   CHECK(settled(23.75).kind == Kind::quasi_periodic);
-}
-
-TEST_CASE("A torus that the steps lock to many turns is none that neighbours meet on")
-{
-  /** The default steps close after 407 turns, at -6.6/s; RK4 written apart, 1,200 steps in a turn:
-      -0.1/s over 4,000 turns. */
-  Parameters machine = set_1();
-  machine.stator = {.mass = 8, .natural_frequency = 300, .damping_ratio = 0.05};
-  machine.rotor = {.mass = 5, .natural_frequency = 200, .damping_ratio = 0.03};
-  machine.unbalance = 3e-4;
-  machine.gravity = 0;
-  machine.bearing.balls = 8;
-  machine.bearing.contact_stiffness = 1e10;
-  machine.bearing.clearance = 3e-5;
-  machine.bearing.cage_speed_ratio = 0.375;
-  const motion::Answer locked = from_rest_at(machine, 50);
-  CHECK(std::abs(locked.settled.lyapunov.value) < 0.3);
-  CHECK(locked.kind() == Kind::quasi_periodic);
-}
-
-TEST_CASE("A motion that the steps keep from doubling is left")
-{
-  /** Steps of usual length close after 8 turns, with the multiplier 1.246 of Eq. 7; RK4 with
-      2,000 steps in a turn, written apart, closes after 16. */
-  Parameters machine = set_1();
-  machine.stator = {.mass = 7.16, .natural_frequency = 587.6, .damping_ratio = 0.125};
-  machine.rotor = {.mass = 1.13, .natural_frequency = 0, .damping_ratio = 0};
-  machine.rotor.damper = 393.4;
-  machine.unbalance = 2.101e-5;
-  machine.bearing.balls = 8;
-  machine.bearing.contact_stiffness = 1.605e10;
-  machine.bearing.clearance = 4.241e-5;
-  machine.bearing.cage_speed_ratio = 0.375;
-  const motion::Answer doubled = from_rest_at(machine, 41.25);
-  CHECK(doubled.period() == 16);
-  CHECK(doubled.stability == "stable");
-  CHECK(from_rest_at(machine, 41.27).period() == 8);
-}
-
-TEST_CASE("A multiplier near -1 does not double the period")
-{
-  /** The transient alternates from turn to turn, and leaves 2.5 % less each time: two
-      turns later it is nearer than one turn later. */
-  Parameters parameters = set_1();
-  parameters.bearing.clearance = 129e-6;
-  const motion::Answer answer = from_rest_at(parameters, 48.495);
-  CHECK(answer.period() == 1);
-  CHECK(answer.method == "shooting");
-  CHECK(answer.multiplier == Approx(0.97547).epsilon(1e-4));
-  /** A doubling as small as that, 2.7e-6 of the amplitude, which is none of the
-      transient: the motion of one turn has the multiplier -1.032. */
-  parameters = set_1();
-  std::swap(parameters.stator.natural_frequency, parameters.rotor.natural_frequency);
-  parameters.stator.mass = 5.87;
-  parameters.rotor.mass = 2.96;
-  const motion::Answer doubled = from_rest_at(parameters, 46.5);
-  CHECK(doubled.period() == 2);
-  CHECK(doubled.stability == "stable");
 }
 
 TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance")
