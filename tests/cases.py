@@ -6,30 +6,21 @@ apart from this project; where a motion is compared instant by instant, from the
 (truth/judge.cpp), which shares no code with src.
 """
 import math
-import tomllib
 from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
 
 from tests.machines import table
-from tests.truth.independent import Model, displacements, errors
+from tests.truth.independent import displacements, errors, model_of
 from tests.unit.shaft import two_disks
-from tests.support.explore import AMPLITUDES, MACHINE, NAMES, SETS, Case, changed, some
+from tests.support.explore import AMPLITUDES, MACHINE, SETS, Case, changed, some
 
 CASES = Path("tests/cases").resolve()
 
 
 def machine(name):
     return CASES / f"{name}.toml"
-
-
-def model_of(path, frequency):
-    return Model(tomllib.loads(path.read_text(encoding="utf-8")), frequency)
-
-
-def half_span(column):
-    return np.ptp(column) / 2
 
 
 CATALOGUE = """title = "a free rotor"
@@ -53,14 +44,11 @@ contact_stiffness_N_per_mn = {stiffness}""")
 
 
 class Cases(Case):
-    def asked(self, command, name, *options):
-        return self.table(command, machine(name), *options)
-
     def errors_hold(self, name, frequency, tolerance, turns, factor=1.5):
         """What is printed of a motion with two frequencies, beside the judge's, which
         starts from rest long before: its errors are those that are printed, or below the
         tolerance."""
-        table = self.asked("orbit", name, "--frequency", frequency, "--tolerance", tolerance,
+        table = self.table("orbit", machine(name), "--frequency", frequency, "--tolerance", tolerance,
                            "--periods", turns, "--points", 64)
         theirs = model_of(machine(name), frequency).settled(turns, 64)
         for key, error in zip(("error_largest", "error_rms"), errors(displacements(table), theirs)):
@@ -192,7 +180,7 @@ rotor_dofs = [1, 2]
         for frequency, amplitude in amplitudes.items():
             with self.subTest(frequency=frequency):
                 for how in [["--method", "aft", "--tolerance", "1e-4"], []]:
-                    table = self.asked("orbit", "passing_6306", "--frequency",
+                    table = self.table("orbit", machine("passing_6306"), "--frequency",
                                              frequency, *how)
                     if not how:
                         self.assertEqual(table.value("base"), "passing")
@@ -200,7 +188,7 @@ rotor_dofs = [1, 2]
                     if how or frequency != 33:
                         self.assertEqual((table.value("regime"), table.value("stability")),
                                          ("periodic", "stable"))
-                        self.assertAlmostEqual(half_span(table["x_r"]) / amplitude, 1,
+                        self.assertAlmostEqual(np.ptp(table["x_r"]) / 2 / amplitude, 1,
                                                delta=2e-4)
 
     def test_one_word_for_a_kind(self):
@@ -228,7 +216,7 @@ rotor_dofs = [1, 2]
                                      ("rest", "stable"))
                     self.assertEqual(max(abs(table[of]).max() for of in ("x_r", "y_r")),
                                      0)
-        table = self.asked("attractors", "jeffcott_at_rest", "--from", 10, "--to", 50,
+        table = self.table("attractors", machine("jeffcott_at_rest"), "--from", 10, "--to", 50,
                               "--count", 3)
         self.assertEqual(list(table["f"]), [10, 30, 50])
         self.assertEqual(abs(table["amp_x_r"]).max(), 0)
@@ -242,7 +230,7 @@ rotor_dofs = [1, 2]
         3,000 Hz."""
         for frequency, words in some([(300, {"stable"}), (3000, {"stable", "undecided"})], 2):
             with self.subTest(frequency=frequency):
-                table = self.asked("orbit", "soft_mounting", "--frequency", frequency, "--quiet")
+                table = self.table("orbit", machine("soft_mounting"), "--frequency", frequency, "--quiet")
                 self.assertIn(table.value("stability"), words)
                 self.assertNotEqual(table.value("regime"), "chaotic")
 
@@ -326,7 +314,7 @@ class Measures(Case):
         lines = np.fft.rfft((x - x.mean()) * window)
         hertz = np.fft.rfftfreq(n, step)
         power = 2 * abs(lines / n)**2 / (window**2).mean() * (2 * np.pi * hertz)**2
-        right = [half_span(x), math.sqrt(power.sum()), 2 * abs(lines[turns]) / n,
+        right = [np.ptp(x) / 2, math.sqrt(power.sum()), 2 * abs(lines[turns]) / n,
                  1e3 * math.sqrt(power[(hertz >= 10) & (hertz <= 1000)].sum()),
                  math.sqrt((power * (2 * np.pi * hertz)**2).sum())]
         for command, how in commands_at(50):
@@ -380,7 +368,7 @@ class Measures(Case):
         found = [row["amp_F_x"][0], row["amp_F_y"][0], row["ball_load"][0],
                  mapped["ball_load"][0], mapped["force"][0]]
         np.testing.assert_allclose(found, [
-            half_span(orbit["F_x"]), half_span(orbit["F_y"]), load, load,
+            np.ptp(orbit["F_x"]) / 2, np.ptp(orbit["F_y"]) / 2, load, load,
             np.hypot(orbit["F_x"], orbit["F_y"]).max()], rtol=1e-3)
 
     def test_iso_at_its_lower_end(self):

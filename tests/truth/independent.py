@@ -287,3 +287,7 @@ class Model:
             if found.kind not in (None, "undecided"):
                 break
         return found
+
+
+def model_of(file, frequency):
+    return Model(tomllib.loads(file.read_text(encoding="utf-8")), frequency)

@@ -8,7 +8,7 @@ import tomllib
 
 import numpy as np
 
-from tests.truth.independent import Model, ask, displacements, state_at_zero
+from tests.truth.independent import ask, displacements, model_of, state_at_zero
 from tests.machines import SET_1, entries, random_machine, written
 from tests.support.explore import AMPLITUDES, SETS, Case, Table, some
 
@@ -24,10 +24,6 @@ FALSELY_STABLE = [(1, 12.5, 6), (1, 12.5, 8), (1, 13, 6), (1, 13, 10), (1, 13.5,
                   (1, 14, 8), (1, 14, 10), (1, 14.5, 6), (1, 14.5, 8), (1, 14.5, 10), (1, 20, 6), (1, 20, 8), (1, 20, 10),
                   (1, 54, 6), (1, 54, 8), (1, 54, 10), (2, 9.5, 10), (2, 38.5, 8), (2, 39, 6), (2, 39, 8), (2, 57, 6),
                   (2, 57, 8), (2, 57, 10), (2, 60, 6), (2, 60, 8), (2, 37.5, 8)]
-
-
-def model_of(file, frequency):
-    return Model(tomllib.loads(file.read_text(encoding="utf-8")), frequency)
 
 
 class Verdicts(Case):
