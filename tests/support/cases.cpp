@@ -1,7 +1,4 @@
 #include "support/cases.hpp"
-
-#include "balance/fourier_transform.hpp"
-
 namespace rotor_stator::tests {
 
 Problem Oscillator::problem(int samples) const
@@ -64,54 +61,9 @@ Oscillator two_masses_unilateral()
           }};
 }
 
-/** The derivative of the period map of an oscillator with d masses, linearised along the series `x` at
-    `omega`, by RK4 with so many steps. 2d × 2d, displacements first. */
-static Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
-                                 double omega, int steps)
-{
-  const auto d = oscillator.mass.rows();
-  const Eigen::MatrixXd q = sample_series(x.reshaped(d, x.size() / d), 2 * steps);
-  const Eigen::MatrixXd per_mass = oscillator.mass.inverse();
-  const auto rate = [&](int half_step, const Eigen::MatrixXd& y) {
-    const Eigen::MatrixXd k =
-        oscillator.stiffness + oscillator.law(q.row(half_step % (2 * steps))).stiffness;
-    Eigen::MatrixXd slope(2 * d, 2 * d);
-    slope << y.bottomRows(d),
-        -per_mass * (k * y.topRows(d) + oscillator.damping * y.bottomRows(d));
-    return slope;
-  };
-  Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(2 * d, 2 * d);
-  const double h = 2 * std::numbers::pi / omega / steps;
-  for (int k = 0; k < 2 * steps; k += 2) {
-    const Eigen::MatrixXd s_1 = rate(k, phi), s_2 = rate(k + 1, phi + h / 2 * s_1),
-                          s_3 = rate(k + 1, phi + h / 2 * s_2),
-                          s_4 = rate(k + 2, phi + h * s_3);
-    phi += h / 6 * (s_1 + 2 * s_2 + 2 * s_3 + s_4);
-  }
-  return phi;
-}
-
-Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega)
-{
-  constexpr int steps = 1000;
-  Floquet result{.multipliers = multipliers_of(monodromy(oscillator, x, omega, steps))};
-  result.change = largest_move(
-      result.multipliers, multipliers_of(monodromy(oscillator, x, omega, steps / 2)));
-  result.converged = result.change <= 1e-6;
-  return result;
-}
-
 double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h)
 {
   return std::hypot(x[(2 * h - 1) * dofs + row], x[2 * h * dofs + row]);
-}
-
-double rms(const Eigen::VectorXd& x, int dofs, int row)
-{
-  double sum = x[row] * x[row];
-  for (Eigen::Index h = 1; 2 * h * dofs + row < x.size(); ++h)
-    sum += 0.5 * std::pow(harmonic_amplitude(x, dofs, row, static_cast<int>(h)), 2);
-  return std::sqrt(sum);
 }
 
 void check_same(const std::vector<double>& found, const std::vector<double>& known,

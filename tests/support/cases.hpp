@@ -45,16 +45,9 @@ Oscillator duffing();
 Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
 
-/** The multipliers along the series `x` of an oscillator with a smooth stiffness, by RK4, and their change from half as
-    many steps. */
-Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega);
-
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
     variables. */
 double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h);
-
-/** Root mean square of variable `row`. */
-double rms(const Eigen::VectorXd& x, int dofs, int row);
 
 /** data/set1.toml. */
 Parameters set_1();

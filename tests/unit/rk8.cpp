@@ -4,19 +4,12 @@
 #include "time/fixed_step.hpp"
 #include "time/flow.hpp"
 #include "time/period_map.hpp"
+#include "time/settle.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
 namespace {
-
-double distance(const Parameters& parameters, const State& a, const State& b)
-{
-  return (vector_of(a) - vector_of(b))
-      .cwiseQuotient(state_scales(parameters))
-      .cwiseAbs()
-      .maxCoeff();
-}
 
 /** The rotor hangs on one ball that it never leaves: smooth, and not linear. */
 Parameters on_one_ball()
@@ -67,7 +60,7 @@ TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order
     const double estimate = Rk8(machine, omega, 1, 1).step(1. / parts, state);
     Rk8(machine, omega, parts, 1e-15).advance(0, exact);
     CHECK(exact.position.relative().x > machine.bearing.clearance);
-    return Errors{distance(machine, state, exact), estimate};
+    return Errors{apart(machine, state, exact), estimate};
   };
   const int parts = static_cast<int>(1 / (7 * default_step(machine) * 8));
   const Errors coarse = errors(parts), fine = errors(2 * parts);
@@ -108,8 +101,8 @@ TEST_CASE("rk8 goes where GSL's rk8pd goes, and its disturbances where those of 
     rk8.advance(k, ours);
     gsl->advance(k, theirs);
   }
-  CHECK(distance(machine, ours, theirs) < near);
-  CHECK(distance(machine, ours, start) > 1e-3);
+  CHECK(apart(machine, ours, theirs) < near);
+  CHECK(apart(machine, ours, start) > 1e-3);
 
   const Vector8 sizes = state_scales(machine);
   const PeriodMap map = period_map(machine, omega, start,
@@ -120,7 +113,7 @@ TEST_CASE("rk8 goes where GSL's rk8pd goes, and its disturbances where those of 
   theirs = start;
   flow(machine, omega, {.method = "rk8pd", .intervals_per_period = 1, .tolerance = 1e-14})
       ->advance(0, theirs);
-  CHECK(distance(machine, map.end, theirs) < near);
+  CHECK(apart(machine, map.end, theirs) < near);
   const Matrix8 apart = sizes.cwiseInverse().asDiagonal() *
                         (map.derivative - other.derivative) * sizes.asDiagonal();
   CHECK(apart.cwiseAbs().maxCoeff() < near_derivative);
@@ -154,7 +147,7 @@ TEST_CASE("A period map is its method's, and its derivative that of its differen
     return vector_of(state);
   };
   const PeriodMap map = period_map(machine, omega, start, settings);
-  CHECK(distance(machine, map.end, state_of(end(y))) < 1e-10);
+  CHECK(apart(machine, map.end, state_of(end(y))) < 1e-10);
   const Matrix8 scaled =
       sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal();
   for (int j = 0; j < 8; ++j) {
@@ -201,8 +194,8 @@ TEST_CASE("A motion by rk8 depends on its start and its instant alone")
   CHECK(displacements(first.position) == displacements(again.position));
   CHECK(displacements(first.velocity) == displacements(again.velocity));
   rk8.advance(-16, earlier);  // two turns before, where everything stands as at 0
-  CHECK(distance(machine, first, earlier) < 1e-12);
-  CHECK(distance(machine, first, start) > 1e-6);
+  CHECK(apart(machine, first, earlier) < 1e-12);
+  CHECK(apart(machine, first, start) > 1e-6);
 }
 
 TEST_CASE("rk8 has the same bits with registers of each width")
