@@ -74,45 +74,24 @@ def fault(status, out, err):
     return f"status {status}"
 
 
-class Folder:
-    """Where explore runs: emptied before each question."""
-
-    def __init__(self):
-        self.path = Path(tempfile.mkdtemp(prefix="rotor_stator_"))
-
-    def ask(self, arguments, files):
-        """Runs explore; returns its status, after the check of all that it printed and left."""
-        for old in self.path.iterdir():
-            shutil.rmtree(old) if old.is_dir() else old.unlink()
-        for name, content in files.items():
-            (self.path / name).write_bytes(content)
-        words = [str(EXPLORE).encode(), *(word.encode("utf-8", "surrogateescape") for word in arguments)]
-        run = subprocess.run(words, cwd=self.path, stdin=subprocess.DEVNULL, capture_output=True,
-                             timeout=LONGEST if LITTLE in arguments else 1800)
-        out, err = (text.decode("utf-8", "surrogateescape") for text in (run.stdout, run.stderr))
-        wrong = fault(run.returncode, out, err) or self.left_behind(files, arguments, run.returncode)
-        assert not wrong, f"{wrong}\nexplore {arguments}\n{err[:2000]}\n" + "\n".join(
-            f"{name}: {content[:2000]!r}" for name, content in files.items())
-        return run.returncode
-
-    def left_behind(self, files, arguments, status):
-        """A file that was changed, not asked for, or not finished."""
-        for name, content in files.items():
-            if (self.path / name).read_bytes() != content:
-                return f"{name} was changed"
-        more = {file.name for file in self.path.iterdir()} - files.keys()
-        asked = {name for option, name in zip(arguments, arguments[1:]) if option in WRITTEN}
-        asked |= {"M.mtx", "C.mtx", "G.mtx", "K.mtx"} if "." in asked else set()
-        if more - asked:
-            return f"left behind: {sorted(more)}"
-        if more and status == 2:
-            return "saved, although the input was bad"
-        for file in (self.path / name for name in more):
-            if file.is_dir() and {part.name for part in file.iterdir()} != {"M.mtx", "C.mtx", "G.mtx", "K.mtx"}:
-                return "a folder saved in part"
-            if not all(part.read_bytes().endswith(b"\n") for part in (file.iterdir() if file.is_dir() else [file])):
-                return "saved in part"
-        return None
+def left_behind(folder, files, arguments, status):
+    """A file that was changed, not asked for, or not finished."""
+    for name, content in files.items():
+        if (folder / name).read_bytes() != content:
+            return f"{name} was changed"
+    more = {file.name for file in folder.iterdir()} - files.keys()
+    asked = {name for option, name in zip(arguments, arguments[1:]) if option in WRITTEN}
+    asked |= {"M.mtx", "C.mtx", "G.mtx", "K.mtx"} if "." in asked else set()
+    if more - asked:
+        return f"left behind: {sorted(more)}"
+    if more and status == 2:
+        return "saved, although the input was bad"
+    for file in (folder / name for name in more):
+        if file.is_dir() and {part.name for part in file.iterdir()} != {"M.mtx", "C.mtx", "G.mtx", "K.mtx"}:
+            return "a folder saved in part"
+        if not all(part.read_bytes().endswith(b"\n") for part in (file.iterdir() if file.is_dir() else [file])):
+            return "saved in part"
+    return None
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -303,10 +282,9 @@ def attractors_options(draw, extreme):
     return [*ends, ["--count", draw(whole(0, 1))], *options]
 
 
-@st.composite
-def spectrum_options(draw, extreme):
+def spectrum_options(extreme):
     """Those of orbit without --points, which have limits of their own."""
-    return [option for option in draw(motion_options(extreme)) if option[0] != "--points"]
+    return motion_options(extreme).map(lambda options: [option for option in options if option[0] != "--points"])
 
 
 @st.composite
@@ -487,47 +465,53 @@ ONCE_TOO_CHEAP = [
 # The tests
 
 
-def examples(count):
-    """Settings and seed of a test that draws `count` questions, half as many without FULL."""
-    times = float(os.environ.get("EXAMPLES", 1)) * (1 if FULL else 0.5)
-    drawn = settings(max_examples=round(count * times), deadline=None, database=None,
-                     derandomize="SEED" not in os.environ, print_blob=False,
-                     suppress_health_check=list(HealthCheck))
-    return lambda test: drawn(seed(int(os.environ.get("SEED", 0)))(test))
-
-
-def report(what, tally):
-    print(dict(tally))
-    if "ATTACKS" in os.environ:
-        with open(os.environ["ATTACKS"], "a", encoding="utf-8") as file:
-            print(json.dumps([what, tally[0], tally[2], tally[3]]), file=file)
+TIMES = float(os.environ.get("EXAMPLES", 1)) * (1 if FULL else 0.5)  # the questions of each test
 
 
 class Explore(unittest.TestCase):
+    """In one folder, emptied before each question."""
+
     @classmethod
     def setUpClass(cls):
-        cls.folder = Folder()
+        scratch = tempfile.TemporaryDirectory(prefix="rotor_stator_")
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = Path(scratch.name)
 
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder.path)
-
-    def ask(self, words, content=GOOD_FILE, budget=LITTLE, **files):
-        bounded = [*words, "--budget", budget] if budget and words[0] not in ("check", "shaft") else words
-        return self.folder.ask(bounded, {"machine.toml": content, **files})
+    def ask(self, arguments, content=GOOD_FILE, budget=LITTLE, **files):
+        """Runs explore; returns its status, after the check of all that it printed and left."""
+        files = {"machine.toml": content, **files}
+        if budget and arguments[0] not in ("check", "shaft"):
+            arguments = [*arguments, "--budget", budget]
+        for old in self.folder.iterdir():
+            shutil.rmtree(old) if old.is_dir() else old.unlink()
+        for name, content in files.items():
+            (self.folder / name).write_bytes(content)
+        words = [str(EXPLORE).encode(), *(word.encode("utf-8", "surrogateescape") for word in arguments)]
+        run = subprocess.run(words, cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                             timeout=LONGEST if LITTLE in arguments else 1800)
+        out, err = (text.decode("utf-8", "surrogateescape") for text in (run.stdout, run.stderr))
+        wrong = fault(run.returncode, out, err) or left_behind(self.folder, files, arguments, run.returncode)
+        assert not wrong, f"{wrong}\nexplore {arguments}\n{err[:2000]}\n" + "\n".join(
+            f"{name}: {content[:2000]!r}" for name, content in files.items())
+        return run.returncode
 
     def asked(self, what, count, *drawn, question, budget=LITTLE):
         """How many questions ended with each status: words, file of the machine and other files, of what was drawn."""
         tally = Counter()
 
-        @examples(count)
+        @settings(max_examples=round(count * TIMES), deadline=None, database=None, derandomize="SEED" not in os.environ,
+                  print_blob=False, suppress_health_check=list(HealthCheck))
+        @seed(int(os.environ.get("SEED", 0)))
         @given(st.tuples(*drawn))
         def run(values):
             words, content, *files = question(*values)
             tally[self.ask(words, content, budget, **dict(*files))] += 1
 
         run()
-        report(what, tally)
+        print(dict(tally))
+        if "ATTACKS" in os.environ:
+            with open(os.environ["ATTACKS"], "a", encoding="utf-8") as file:
+                print(json.dumps([what, tally[0], tally[2], tally[3]]), file=file)
         return tally
 
     def test_spoilt_parameter_files(self):
@@ -543,7 +527,7 @@ class Explore(unittest.TestCase):
         words = ["response", "machine.toml", "--from", "40", "--to", "41"]
         self.assertEqual(self.ask(["orbit", "machine.toml", "--frequency", "45", "--harmonics", "6"], budget=None), 0)
         self.assertEqual(self.ask([*words, "--harmonics", "6", "--save", "saved.tsv"]), 0)
-        saved = (self.folder.path / "saved.tsv").read_bytes()
+        saved = (self.folder / "saved.tsv").read_bytes()
         tally = self.asked("saved branches, spoilt", 400, spoilt_branches(saved),
                            st.sampled_from([[], ["--at", "40.5"], ["--direction", "down"]]), question=lambda branch, more: (
                                [*words, "--restart", "branch.tsv", *more], GOOD_FILE, {"branch.tsv": branch}))
