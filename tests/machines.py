@@ -9,14 +9,11 @@ import copy
 import math
 import random
 import sys
+import tomllib
+from pathlib import Path
 
-SET_1 = {
-    "stator": {"mass_kg": 20.0, "natural_frequency_rad_per_s": 500.0, "damping_ratio": 0.05},
-    "rotor": {"mass_kg": 40.0, "natural_frequency_rad_per_s": 150.0, "damping_ratio": 0.02,
-              "unbalance_kg_m": 0.05},
-    "bearing": {"balls": 16, "contact_stiffness_N_per_m1p5": 1e11, "radial_clearance_m": 2e-5,
-                "cage_speed_ratio": 0.5},
-    "gravity": {"acceleration_m_per_s2": 9.81}}
+SET_1 = tomllib.loads(Path(__file__).parents[1].joinpath("data/set1.toml").read_text(encoding="utf-8"))
+del SET_1["title"]
 
 # Powers of ten that are likely, and what may be zero.
 DECADES = {
