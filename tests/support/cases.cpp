@@ -1,4 +1,5 @@
 #include "support/cases.hpp"
+
 namespace rotor_stator::tests {
 
 Problem Oscillator::problem(int samples) const

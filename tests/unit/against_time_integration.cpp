@@ -1,4 +1,4 @@
-/** What a panel shows: harmonic balance or rk8pd, two methods that share nothing but Eq. 7. */
+/** What a panel shows: harmonic balance or rk8pd. They share nothing but Eq. 7. */
 #include "figures/panels.hpp"
 #include "motion/motion.hpp"
 #include "support/cases.hpp"
