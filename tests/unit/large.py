@@ -60,9 +60,7 @@ class Large(Case):
             self.folder_of(body, m * one, 2 * v["damping_ratio"] * m * w * one, None, m * w * w * one)
             text += f'[{body}]\nmatrices = "{body}"\nbearing_dofs = [1, 2]\nvertical_dofs = [2]\n'
         text += f"unbalance = [{{ dofs = [1, 2], moment_kg_m = {values['rotor']['unbalance_kg_m']} }}]\n"
-        for table in ["bearing", "gravity"]:
-            text += f"[{table}]\n" + "".join(f"{key} = {value}\n" for key, value in values[table].items())
-        return text
+        return text + table("bearing", **values["bearing"]) + table("gravity", **values["gravity"])
 
     def test_the_papers_machine(self):
         """Another sign of a force, a wrong weight, a spring k_0 that does not cancel, a verdict that forgets a
@@ -270,38 +268,20 @@ class Large(Case):
         m, c, g, k = (mmread(self.folder / f"{name}/{letter}.mtx").toarray() for letter in "MCGK")
         n, middle, phase = len(m), 2 * elements, 0.7
         vertical = [4 * node + 1 for node in range(elements + 1)]
-        stator = {"mass": 25, "omega": 400, "damping_ratio": 0.12}
-        text = f"""title = "flexible shaft"
-[stator]
-mass_kg = {stator["mass"]}
-natural_frequency_rad_per_s = {stator["omega"]}
-damping_ratio = {stator["damping_ratio"]}
-[rotor]
-matrices = "{name}"
-output_dofs = [{middle + 1}, {middle + 2}]
-vertical_dofs = {[dof + 1 for dof in vertical]}
-unbalance = [{{ dofs = [{middle + 1}, {middle + 2}], moment_kg_m = 2e-3, phase_rad = {phase} }},
-             {{ dofs = [1, 2], moment_kg_m = 3e-4 }}]
-[gravity]
-acceleration_m_per_s2 = {GRAVITY}
-"""
+        m_s, w_s, ratio = 25, 400, 0.12  # of the stator
+        text = 'title = "flexible shaft"\n' + table("stator", mass_kg=m_s, natural_frequency_rad_per_s=w_s, damping_ratio=ratio)
+        text += table("rotor", matrices=name, output_dofs=[middle + 1, middle + 2], vertical_dofs=[dof + 1 for dof in vertical])
+        text += (f"unbalance = [{{ dofs = [{middle + 1}, {middle + 2}], moment_kg_m = 2e-3, phase_rad = {phase} }},"
+                 " { dofs = [1, 2], moment_kg_m = 3e-4 }]\n" + table("gravity", acceleration_m_per_s2=GRAVITY))
         joints = []
         for node, b in bearings:
-            text += f"""[[bearing]]
-rotor_dofs = [{4 * node + 1}, {4 * node + 2}]
-stator_dofs = [1, 2]
-balls = {b["balls"]}
-cage_speed_ratio = {b["cage"]}
-cage_phase_rad = {b["phase"]}
-contact_stiffness_N_per_m1p5 = {b["stiffness"]}
-radial_clearance_m = {b["clearance"]}
-"""
+            text += table("[bearing]", rotor_dofs=[4 * node + 1, 4 * node + 2], stator_dofs=[1, 2], balls=b["balls"], cage_speed_ratio=b["cage"],
+                          cage_phase_rad=b["phase"], contact_stiffness_N_per_m1p5=b["stiffness"], radial_clearance_m=b["clearance"])
             d = np.zeros((n + 2, 2))
             d[[0, 1], [0, 1]], d[[2 + 4 * node, 3 + 4 * node], [0, 1]] = -1, 1
             joints.append((d, b))
-        m_s, w_s = stator["mass"], stator["omega"]
         whole = [np.block([[np.eye(2) * s, np.zeros((2, n))], [np.zeros((n, 2)), a]]) for s, a in
-                 [(m_s, m), (2 * stator["damping_ratio"] * m_s * w_s, c), (0, g), (m_s * w_s**2, k)]]
+                 [(m_s, m), (2 * ratio * m_s * w_s, c), (0, g), (m_s * w_s**2, k)]]
         up = np.zeros(n + 2)
         up[[1] + [2 + dof for dof in vertical]] = 1
         unbalance = np.zeros(n + 2, complex)
