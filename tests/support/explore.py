@@ -56,29 +56,26 @@ class Case(unittest.TestCase):
         return result
 
     def refused(self, words, *arguments, status=2, **how):
-        result = self.run_explore(*arguments, **how)
-        self.assertEqual(result.returncode, status, (arguments, result.stderr))
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        self.assertIn(words, result.stderr)
-        self.assertFalse(result.stdout)
-        return result
+        with self.subTest(words, arguments=arguments):
+            result = self.run_explore(*arguments, **how)
+            self.assertEqual(result.returncode, status, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertIn(words, result.stderr)
+            self.assertFalse(result.stdout)
+            return result
 
     def refused_each(self, cases, *command):
         """Pairs of a command's further options, in one string, and words of the message."""
         for options, words in cases:
-            with self.subTest(options):
-                self.refused(words, *command, *options.split())
+            self.refused(words, *command, *options.split())
 
     def refused_machine(self, words, text):
-        with self.subTest(words):
-            self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
+        self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
 
-    def refused_change(self, old, new, words, status=2):
+    def refused_change(self, old, new, words):
         """The machine with one piece of text replaced."""
         self.assertIn(old, MACHINE)
-        with self.subTest(f"{old} -> {new}"):
-            self.refused(words, "orbit", self.file("bad.toml", MACHINE.replace(old, new, 1)), *ORBIT,
-                         status=status)
+        self.refused_machine(words, MACHINE.replace(old, new, 1))
 
     def same(self, one, other, within, *groups):
         """Columns of two tables differ by at most this share of the largest value in their group."""

@@ -219,9 +219,8 @@ class Large(Case):
         def with_file(name, text, words):
             path = self.folder / name
             kept = path.read_text(encoding="utf-8")
-            with self.subTest(name=name, text=text[:60]):
-                self.file(name, text)
-                self.refused(words, *run)
+            self.file(name, text)
+            self.refused(words, *run)
             path.write_text(kept, encoding="utf-8")
 
         head = "%%MatrixMarket matrix coordinate real general\n"
@@ -253,9 +252,8 @@ class Large(Case):
                 ("vertical_dofs = [2]\nunb", "unb", "vertical_dofs"), ("moment_kg_m = ", "moment_kg_m = -", "moment"),
                 ("bearing_dofs = [1, 2]\nvertical_dofs = [2]\n[rotor]", "vertical_dofs = [2]\n[rotor]", "bearing_dofs"),
                 ("[rotor]\n", "[rotor]\nmass_kg = 1\n", "mass_kg")]:
-            with self.subTest(new=new):
-                self.assertIn(old, good)
-                self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
+            self.assertIn(old, good)
+            self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
         self.refused("gauss", *run, "--method", "rk4")
         self.refused("gauss", "orbit", self.machine, *run[2:], "--method", "gauss")
 
@@ -555,8 +553,7 @@ class Large(Case):
                 ("z\tx\ty\n0\t1\t2\n0\t1\t1\n", "nodes.tsv:3: x and y"), ("z\tx\ty\n0\t1\t21\n", "nodes.tsv:2: y must be"),
                 ("z\tx\ty\n0\t0\t2\n", "1...20"), ("z\tx\ty\n0\t1.5\t2\n", "1...20"), ("z\tx\ty\nnan\t1\t2\n", "nodes.tsv:2: 'nan'"),
                 ("z\tx\ty\n-\t1\t2\n", "finite"), ("z\tx\ty\n0\t1\n", "2 cells")]:
-            with self.subTest(text=text):
-                self.refused(words, "shape", own, *run, "--nodes", self.file("nodes.tsv", text))
+            self.refused(words, "shape", own, *run, "--nodes", self.file("nodes.tsv", text))
         nodes = self.nodes(4)[0]
         self.refused("--nodes", "shape", own, *run)
         self.refused("nowhere.tsv", "shape", own, *run, "--nodes", "nowhere.tsv")

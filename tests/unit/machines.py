@@ -1,6 +1,5 @@
 """Machines of other kinds than the paper's, against an independent integration and published cases.
 """
-import math
 import re
 import tomllib
 from pathlib import Path

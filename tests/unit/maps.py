@@ -73,10 +73,8 @@ class Bytes(Case):
                               ("a row of 6 cells", [*cells, "ok"]), ("a row of 4 cells", [*cells[:3], "ok"]),
                               ("holds other points", ["hello", *cells[1:]]),
                               ("status of a row", [*cells[:2], "-", *cells[3:]]), ("status of a row", [*cells[:4], "why not"])]:
-            with self.subTest(rotten):
-                part = self.file("part.tsv", whole.replace(row, "\t".join(rotten)))
-                result = self.refused(words, "map", self.machine, *GRID, "--resume", part)
-                self.assertEqual(result.stdout, "")
+            part = self.file("part.tsv", whole.replace(row, "\t".join(rotten)))
+            self.refused(words, "map", self.machine, *GRID, "--resume", part)
 
 
 class Values(Case):
@@ -261,7 +259,7 @@ class Values(Case):
 
 class Refusals(Case):
     def refused_map(self, words, text):
-        self.refused_each([(text, words)], "map", self.machine)
+        self.refused(words, "map", self.machine, *text.split())
 
     def test_axes_and_quantities(self):
         usual = "--frequency 45 --quantity amplitude"

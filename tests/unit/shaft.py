@@ -234,9 +234,8 @@ class Shaft(Case):
                                 ("density_kg_per_m3 = 7810", "density_kg_per_m3 = 0", "density"),
                                 ("title", "titel", "title"), ("thickness_m = 0.07\n", "", "thickness_m"),
                                 ("[[segment]]", "[[segmnt]]", "segment")]:
-            with self.subTest(new=new):
-                self.assertIn(old, good)
-                self.refused(words, "shaft", self.file("bad.toml", good.replace(old, new, 1)), "--to", "shaft")
+            self.assertIn(old, good)
+            self.refused(words, "shaft", self.file("bad.toml", good.replace(old, new, 1)), "--to", "shaft")
         self.assertFalse((self.folder / "shaft").exists())
         own = self.file("good.toml", good)
         self.refused("--to", "shaft", own, "--to", own)
