@@ -14,7 +14,7 @@ from scipy.io import mmread
 from tests.machines import table
 from tests.truth.independent import displacements, errors, model_of
 from tests.unit.shaft import two_disks
-from tests.support.explore import AMPLITUDES, MACHINE, SETS, Case, changed, some
+from tests.support.explore import AMPLITUDES, MACHINE, SETS, Case, changed, some, with_table
 
 CASES = Path("tests/cases").resolve()
 
@@ -126,15 +126,11 @@ class Cases(Case):
         """The same machine from entries that add up, from Fortran's exponents, from a
         comment after blanks and with the line ends of Windows."""
         body = machine("rolling").read_text(encoding="utf-8")
-        body = body[:body.index("[rotor]")] + """[rotor]
+        path = self.file("own.toml", with_table("""[rotor]
 matrices = "m"
 output_dofs = [1, 2]
 vertical_dofs = [2]
-unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]
-[[bearing]]
-rotor_dofs = [1, 2]
-""" + body[body.index("balls"):]
-        path = self.file("own.toml", body)
+unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]", "[[bearing]]\nrotor_dofs = [1, 2]"))
         (self.folder / "m").mkdir()
         head = "%%MatrixMarket matrix coordinate real "
         self.file("m/K.mtx", head + "symmetric\n2 2 2\n1 1 1e6\n2 2 1e6\n")

@@ -19,6 +19,7 @@ import xml.dom.minidom
 from pathlib import Path
 
 from tests.support.browser import BrowserCase, served
+from tests.machines import entries, spread, written
 from tests.support.explore import EXPLORE, MACHINE
 
 PAGE = Path("build/live/index.html")
@@ -27,9 +28,7 @@ MACHINES, SPEEDS = 30, (8, 90)
 
 def random_machine(dice):
     """A machine near data set 1, every value drawn; a third with other cages or without a stator that moves."""
-    def log(low, high):
-        return float(f"{low * (high / low) ** dice.random():.4g}")
-
+    log = spread(dice)
     bearing = {"balls": dice.choice([6, 8, 12, 16, 20]), "contact_stiffness_N_per_m1p5": log(3e9, 3e11),
                "radial_clearance_m": log(2e-6, 1e-4), "cage_speed_ratio": 0.5}
     if dice.random() < 0.2:
@@ -39,9 +38,8 @@ def random_machine(dice):
                         "unbalance_kg_m": log(1e-3, 0.1)},
               "bearing": bearing, "gravity": {"acceleration_m_per_s2": dice.choice([0, 9.81])}}
     if dice.random() < 0.1:
-        tables["stator"] = {"rigid": "true"}
-    return 'title = "drawn"\n' + "".join(
-        f"\n[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in keys.items()) for name, keys in tables.items())
+        tables["stator"] = {"rigid": True}
+    return written(entries(tables, "drawn"))
 
 
 def numbers_of(text):
@@ -345,7 +343,7 @@ class Page(BrowserCase):
     def test_response_grows_has_folds_and_is_cancelled(self):
         self.wait("shown.branch.length > 20")
         self.wait("$('curve-state').textContent.includes('folds')")
-        self.js("const p = document.getElementById('preset'); p.value = 'data/set2.toml'; p.onchange()")
+        self.choose("data/set2.toml")
         self.wait("engines.curve.job && shown.branch.length > 20")
         self.find("#curve-cancel").click()
         self.wait("$('curve-state').textContent === 'cancelled'")

@@ -34,6 +34,14 @@ def changed(text=MACHINE, **values):
     return text
 
 
+def with_table(table, text=MACHINE):
+    """The machine with this table instead of its own of the same name."""
+    name = re.escape(table.partition("\n")[0])
+    text, count = re.subn(rf"(?s){name}\n.*?(?=\n\[|\Z)", lambda _: f"{table}\n", text)
+    assert count == 1, name
+    return text
+
+
 class Case(unittest.TestCase):
     """A folder of its own with data set 1 in machine.toml, where explore runs."""
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import ellipe
 
 from tests.truth.independent import ellipse
-from tests.support.explore import FULL, MACHINE, Case, Table
+from tests.support.explore import FULL, MACHINE, Case, Table, with_table
 
 CATALOGUE = tomllib.loads(Path("data/bearings/deep_groove.toml").read_text(encoding="utf-8"))
 C3 = 'designation = "6205"\ninternal_clearance = "C3"'
@@ -25,8 +25,7 @@ diametral_clearance_m = 20.5e-6"""
 
 
 def machine(bearing):
-    """Data set 1 with another [bearing]."""
-    return re.sub(r"(?s)(\[bearing\]\n).*?(?=\n\[gravity)", lambda found: found[1] + bearing + "\n", MACHINE)
+    return with_table(f"[bearing]\n{bearing}")
 
 
 def published_digits(factor):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.machines import table
-from tests.support.explore import MACHINE, Case, Table
+from tests.support.explore import MACHINE, Case, Table, with_table
 
 BALLS, HERTZ, G = 1024, 1e9, 9.81
 RADIAL = math.gamma(1.75) / (2 * math.sqrt(math.pi) * math.gamma(2.25))  # mean of cos^{5/2} over the loaded half
@@ -43,7 +43,7 @@ class Check(Case):
 
     def test_two_bodies(self):
         """Frequencies from the matrices of both bodies; the critical speed within the range only."""
-        text = MACHINE[:MACHINE.index("[bearing]")] + MACHINE[MACHINE.index("[gravity]"):] + MANY
+        text = with_table(MANY)
         values, _ = self.checked(text)
         m, k = np.array([20, 40.]), np.array([20 * 500.**2, 40 * 150.**2])
         self.assertAlmostEqual(values["f_s"], 500 / (2 * math.pi), delta=1e-9)

@@ -10,7 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-from tests.support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case
+from tests.support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case, with_table
 
 
 OWN = "# Branch of harmonic balance\n# source: rotor_stator 0.1.0\n"  # a file of --save
@@ -306,7 +306,7 @@ class Files(Case):
     def test_names_that_the_system_refuses(self):
         """Would catch an exception that ends the program without a line of its own."""
         (self.folder / "loop").symlink_to("loop")
-        machine = MACHINE[:MACHINE.index("[rotor]")] + '[rotor]\nmatrices = "{}"\n' + MACHINE[MACHINE.index("[bearing]"):]
+        machine = with_table('[rotor]\nmatrices = "{}"')
         for name in ["x" * 300, "loop", "machine.toml"]:
             self.refused_machine("rotor.matrices names no folder", machine.format(name))
         (self.folder / "loops").mkdir()

@@ -158,16 +158,15 @@ class Branch(Case):
             self.assertIn("the budget of 0.3 s is used up at", part.stderr)
             if part.stdout:
                 self.assertTrue(whole.startswith(part.stdout.split("# complete")[0]))
-                rest = self.lines(*sweep, "--resume", self.file("part.tsv", part.stdout))
-                self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole.splitlines() if row[0] != "#"])
+                rest = self.rows(*sweep, "--resume", self.file("part.tsv", part.stdout))
+                self.assertEqual(rest, [row for row in whole.splitlines() if row[0] != "#"])
         thirds = ["response", self.machine, "--from", 20, "--to", 30, "--count", 20]  # of no short decimals
         whole = self.lines(*thirds)
         part = [row for row in whole if not row.startswith("# ") or row.split(":")[0] not in ("# complete", "# contact", "# evaluations")]
-        rest = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(part[:-13]) + "\n"))
-        self.assertEqual([row for row in rest if row[0] != "#"], [row for row in whole if row[0] != "#"])
         holed = [row for row in part[:-13] if not row.startswith("20.5263")]  # a speed that was lost
-        again = self.lines(*thirds, "--resume", self.file("part.tsv", "\n".join(holed) + "\n"))
-        self.assertEqual([row for row in again if row[0] != "#"], [row for row in whole if row[0] != "#"])
+        for kept in (part[:-13], holed):
+            rest = self.rows(*thirds, "--resume", self.file("part.tsv", "\n".join(kept) + "\n"))
+            self.assertEqual(rest, [row for row in whole if row[0] != "#"])
         self.refused("needs f as the first", *thirds, "--columns", "amp_x_r,f", "--resume", "part.tsv")
         self.refused("leave out --plot", *thirds, "--columns", "f,amp_x_r", "--resume", "part.tsv", "--plot", "a.svg")
         damped = self.file("damped.toml", MACHINE.replace("cage_speed_ratio", "contact_damping_s_per_m = 5.0\ncage_speed_ratio"))

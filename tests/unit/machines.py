@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from tests.truth.independent import Model, displacements
-from tests.support.explore import MACHINE, Case, changed
+from tests.support.explore import MACHINE, Case, changed, with_table
 
 VALUES = tomllib.loads(MACHINE)
-RIGID = re.sub(r"(?s)(\[stator\]\n).*?(?=\n\[rotor)", r"\1rigid = true\n", MACHINE)
+RIGID = with_table("[stator]\nrigid = true")
 
 
 def replaced(text, body, key, new):

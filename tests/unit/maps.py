@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from tests.truth.independent import displacements, errors
-from tests.support.explore import MACHINE, Case, Table, changed
+from tests.support.explore import MACHINE, Case, Table, changed, with_table
 
 CLEARANCE = "bearing.radial_clearance_m"
 SIX = ["--harmonics", 6]
@@ -157,8 +157,7 @@ class Values(Case):
         """A stiff loose bearing at 30 Hz, whose contact vibrates without a period: the error of six harmonics is their
         distance from what the machine does, here over forty turns of another method from rest (means over forty scatter by 5 %).
         Would catch an error against a motion that has not settled, and one that is left out."""
-        machine = self.file("loose.toml", MACHINE.replace("= 1e11", "= 1e12").replace("= 2e-5", "= 8.333333e-5"))
-        self.assertNotEqual(machine.read_text(encoding="utf-8"), MACHINE)
+        machine = self.file("loose.toml", changed(contact_stiffness_N_per_m1p5=1e12, radial_clearance_m=8.333333e-5))
         table = self.table("map", machine, "--y", "frequency=30:30:1", "--harmonics", 6, "--quantity", "error")
         six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
@@ -181,9 +180,8 @@ class Values(Case):
     def test_same_word_as_in_a_response(self):
         """Largest forces and shares of contact of a motion that never repeats itself, of 256 base periods in both. Would catch two windows."""
         names = ["contact_share", "ball_load"]
-        chaotic = self.file("chaotic.toml", MACHINE.replace("= 2e-05", "= 2e-04"))
-        response = self.table("response", chaotic, "--from", 13, "--to", 14, "--count", 2, "--columns", ",".join(["f", "period", *names]))
-        table = self.table("map", chaotic, "--x", "frequency=13:14:2", "--quantity", ",".join(["period", *names]))
+        response = self.table("response", self.machine, "--from", 13, "--to", 14, "--count", 2, "--columns", ",".join(["f", "period", *names]))
+        table = self.table("map", self.machine, "--x", "frequency=13:14:2", "--quantity", ",".join(["period", *names]))
         self.assertEqual(list(table["period"]), list(response["period"]))
         self.assertLess(table["period"].min(), 1)
         for name in names:
@@ -191,8 +189,7 @@ class Values(Case):
 
     def test_diametral_clearance_and_class(self):
         """A key drops the other ways to give its value: half of one is the other."""
-        named = self.file("named.toml", MACHINE.split("[bearing]")[0] + '[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"\n'
-                          + "[gravity]" + MACHINE.split("[gravity]")[1])
+        named = self.file("named.toml", with_table('[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"'))
         values = [self.table("map", named, "--frequency", 45, "--quantity", "amplitude", "--y", f"bearing.{key}:2")["amplitude"]
                   for key in ("diametral_clearance_um=16:24", "radial_clearance_um=8:12")]
         np.testing.assert_allclose(*values, rtol=1e-6)

@@ -12,15 +12,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tests.support.explore import EXPLORE, MACHINE, Case, Table, some
+from tests.support.explore import EXPLORE, MACHINE, Case, Table, changed, some, with_table
 
 AT_45 = ["--frequency", 45, "--points", 64]
 TO_45 = ["--from", 44, "--to", 45]
 SIX, TO_1E_3 = ["--harmonics", 6], ["--method", "aft", "--tolerance", 1e-3]  # with one frequency, with two
-CARRIED = MACHINE[:MACHINE.index("[bearing]")] + MACHINE[MACHINE.index("[gravity]"):] + """[bearing]
-designation = "6205"
-internal_clearance = "C3"
-"""
+CARRIED = with_table('[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"')
 
 
 class Columns(Case):
@@ -48,7 +45,7 @@ class Columns(Case):
 
     def test_response_against_orbit_and_contact(self):
         """Mean, force, share, load and harmonics of the last row against tables of the motion there."""
-        for text in [MACHINE, CARRIED, CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0")]:
+        for text in [MACHINE, CARRIED, changed(CARRIED, unbalance_kg_m=0.0)]:
             own, how = self.file("own.toml", text), TO_1E_3 if text == CARRIED else SIX
             usual = self.table("response", own, *TO_45, *how)
             table = self.table("response", own, *TO_45, *how, "--columns", "all", "--harmonics-of", "y_r")
@@ -79,7 +76,7 @@ class Columns(Case):
 
     def test_waterfall_is_the_spectrum_at_each_speed(self):
         for unbalance, first in [("0.05", "1X"), ("0.0", "BPFO")]:
-            own = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = " + unbalance))
+            own = self.file("own.toml", changed(CARRIED, unbalance_kg_m=unbalance))
             how = SIX if unbalance == "0.0" else TO_1E_3
             self.lines("response", own, *TO_45, *(how if unbalance == "0.0" else ["--method", "aft"]), "--waterfall", "lines.tsv")
             lines = Table(self.folder / "lines.tsv")
@@ -134,7 +131,7 @@ class Formats(Case):
 
     def test_every_command_draws(self):
         """On data set 1 and on a balanced 6205; in each format twice alike; what is missing is said before any work."""
-        balanced = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0"))
+        balanced = self.file("own.toml", changed(CARRIED, unbalance_kg_m=0.0))
         axis = ["map", "--frequency", 45, "--x", "bearing.radial_clearance_m=1e-5:2e-5:3", *SIX, "--quantity"]
         commands = [["orbit", *AT_45, *SIX], ["contact", *AT_45, *SIX], ["spectrum", "--frequency", 45, *SIX], ["response", *TO_45, *SIX],
                     ["attractors", "--from", 44, "--to", 44, "--count", 1, "--starts", 0], [*axis, "amplitude"],
