@@ -6,7 +6,6 @@ apart from this project; where a motion is compared instant by instant, from the
 (truth/judge.cpp), which shares no code with src.
 """
 import math
-from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
@@ -14,9 +13,7 @@ from scipy.io import mmread
 from tests.machines import table
 from tests.truth.independent import displacements, errors, model_of
 from tests.unit.shaft import two_disks
-from tests.support.explore import AMPLITUDES, MACHINE, SETS, Case, changed, some, with_table
-
-CASES = Path("tests/cases").resolve()
+from tests.support.explore import AMPLITUDES, CASES, MACHINE, SETS, Case, changed, some, with_table
 
 
 def machine(name):

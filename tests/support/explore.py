@@ -10,6 +10,7 @@ import numpy as np
 from tables import Table
 
 EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
+CASES = Path("tests/cases").resolve()
 SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
 MACHINE = SETS[1].read_text(encoding="utf-8")
 NAMES, FORCES = ["x_s", "y_s", "x_r", "y_r"], ["F_x", "F_y"]

@@ -10,7 +10,7 @@ import numpy as np
 
 from tests.truth.independent import ask, displacements, model_of, state_at_zero
 from tests.machines import SET_1, entries, random_machine, written
-from tests.support.explore import AMPLITUDES, SETS, Case, Table, some
+from tests.support.explore import AMPLITUDES, CASES, SETS, Case, Table, some
 
 START = [0.96, 0.66, 0.32, 0.09]  # near the motion of the two masses at 0.635
 SAME, NEAR_ONE = 0.05, 0.002  # of the largest displacement; of the modulus
@@ -98,6 +98,20 @@ class Verdicts(Case):
                     self.assertEqual(self.orbit(file, frequency, "--harmonics", m)[0], "unstable")
         # One stable and one unstable motion, 0.35 % and 0.40 % away: neither is this solution's own.
         self.assertEqual(self.orbit(SETS[1], 25.75, "--harmonics", 6)[0], "undecided")
+
+    def test_strongly_unstable_and_equally_near(self):
+        """Multipliers of an independent shooting, where another motion, 2 to 4 % away, closes more easily. Of the last solution
+        a stable motion is 2.13e-4 away, an unstable one 1.76e-4."""
+        def judged(name, frequency, m):
+            return Table.of(self.run_explore("orbit", CASES / f"{name}.toml", "--frequency", frequency, "--harmonics", m).stdout)
+        for name, frequency, grows in (("grows_32177", 71.23, 32177), ("grows_17565", 77.32, 17565)):
+            table = judged(name, frequency, 500)
+            self.assertEqual(table.value("stability"), "unstable")
+            self.assertAlmostEqual(table.value("multiplier") / grows, 1, delta=1e-4)
+            self.assertLess(table.value("distance_largest"), 1e-5)
+        table = judged("two_motions", 40.953, 11)
+        self.assertEqual(table.value("stability"), "undecided")
+        self.assertIn("two motions", table.header)
 
     def test_stable_is_not_said_where_nothing_T_periodic_attracts(self):
         for number, frequency, m in some(FALSELY_STABLE, 2):

@@ -1,6 +1,5 @@
 /** What the machine does from rest: kinds, exponents, amplitudes and errors against closed forms and other methods. */
 #include "motion/answer.hpp"
-#include "motion/quasi_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/shooting.hpp"
@@ -95,25 +94,6 @@ TEST_CASE("A wobble that only the steps keep up is not reported")
   CHECK(closed.period == 1);
   CHECK(closed.step == step_at(machine, hertz(24)) / 4);
   CHECK(settled(23.75).kind == Kind::quasi_periodic);
-}
-
-TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance")
-{
-  /** A start at another angle of the cage, or a transient that is not over, would show at once. */
-  Parameters parameters = set_1();
-  parameters.bearing.cage_speed_ratio = 0.43;
-  const motion::Answer answer =
-      motion::answer(parameters, {.omega = hertz(45.4), .points = 64, .periods = 4});
-  REQUIRE(answer.kind() == Kind::quasi_periodic);
-  REQUIRE(answer.settled.at.period == 0);
-  const motion::Torus balance =
-      motion::torus_to_tolerance({parameters, hertz(45.4)}, 1e-4);
-  REQUIRE(balance.reached);
-  motion::Motion exact = answer.motion,
-                 solution = motion::motion_of(parameters, balance.motion, 64, 4);
-  exact.points_per_period = solution.points_per_period = 256;
-  CHECK(motion::relative_difference(solution, exact) < 2e-4);
-  CHECK(answer.error->larger() < 1e-4);
 }
 
 TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0")

@@ -4,15 +4,14 @@ The rotors are examples 5.9.1, 5.9.2 and 5.9.9 of Friswell, Penny, Garvey and Le
 with the frequencies that ROSS prints for them.
 """
 import resource
-from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
 
 from tests.machines import table
-from tests.support.explore import Case, with_table
+from tests.support.explore import CASES, Case, with_table
 
-PASSING = Path("tests/cases/passing_6306.toml").resolve()
+PASSING = CASES / "passing_6306.toml"
 # A pin at one end of six elements, a 6308 at the other.
 HELD = 'title = "held"\n' + table("stator", rigid=True) + table("rotor", matrices="shaft", vertical_dofs=[2, 6, 10, 14, 18, 22, 26]) + table(
     "[bearing]", rotor_dofs=[25, 26], designation="6308", internal_clearance="CN") + table("gravity", acceleration_m_per_s2=9.81)

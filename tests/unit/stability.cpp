@@ -1,5 +1,4 @@
-/** Floquet multipliers and shooting, against closed forms and each other; verdicts on solutions, against motions that
-    another shooting has closed. */
+/** Floquet multipliers and shooting, against closed forms and each other. */
 #include "motion/judge.hpp"
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
@@ -18,16 +17,6 @@ PeriodicMotion solution_at(const Parameters& parameters, double frequency, int h
   const auto solution = find_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return solution;
-}
-
-motion::Verdict judged(const Parameters& parameters, double frequency, int harmonics)
-{
-  return judge(parameters, solution_at(parameters, frequency, harmonics));
-}
-
-Parameters case_of(const char* name)
-{
-  return read_parameters(std::string(SOURCE_DIR "/tests/cases/") + name + ".toml");
 }
 
 }  // namespace
@@ -99,34 +88,12 @@ TEST_CASE("Shooting says why it stops")
   CHECK(away.reason == "what closes is farther away than asked for");
 }
 
-/** The multipliers of an independent shooting. Catches another motion, 2 to 4 % away, that
-    closes more easily. */
-TEST_CASE("What grows 32,177 times in a turn is closed, and called unstable")
-{
-  const motion::Verdict first = judged(case_of("grows_32177"), 71.23, 500);
-  CHECK(std::string(first.word()) == "unstable");
-  CHECK(first.floquet.largest() == Approx(32177).epsilon(1e-4));
-  CHECK(first.distance.largest < 1e-5);
-  const motion::Verdict second = judged(case_of("grows_17565"), 77.32, 500);
-  CHECK(std::string(second.word()) == "unstable");
-  CHECK(second.floquet.largest() == Approx(17565).epsilon(1e-4));
-  CHECK(second.distance.largest < 1e-5);
-}
-
-/** A stable motion is 2.13e-4 away, an unstable one 1.76e-4. */
-TEST_CASE("Beside two motions of opposite kinds that are as near nothing is decided")
-{
-  const motion::Verdict verdict = judged(case_of("two_motions"), 40.953, 11);
-  CHECK(std::string(verdict.word()) == "undecided");
-  CHECK(verdict.reason.find("two motions") != std::string::npos);
-}
-
 TEST_CASE("A machine at rest is stable, and its distances are numbers")
 {
   Parameters parameters = set_1();
   parameters.unbalance = 0;
   parameters.gravity = 0;
-  const motion::Verdict verdict = judged(parameters, 45, 6);
+  const Verdict verdict = judge(parameters, solution_at(parameters, 45, 6));
   CHECK(verdict.stable());
   CHECK_FALSE(verdict.moves);
   CHECK(verdict.distance.largest == 0);
