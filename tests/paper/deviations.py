@@ -1,5 +1,6 @@
 """paper/deviations.md: complete entries, no typed result, known keys, and every citation answered.
 """
+import math
 import re
 import subprocess
 import sys
@@ -7,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from tests.support.explore import EXPLORE, SANITIZED
+from tests.support.explore import EXPLORE, SANITIZED, Table
 
 PAGE = Path("paper/deviations.md")
 HEADING = re.compile(r"^## (D-\d\d) ", re.MULTILINE)
@@ -52,6 +53,13 @@ def include(text, table):
                               capture_output=True, text=True, check=False)
 
 
+def evidence():
+    """The table of make; with sanitizers the program computes it anew."""
+    program = EXPLORE.with_name("deviations")
+    return (subprocess.run([program], capture_output=True, text=True, check=True).stdout if SANITIZED
+            else Path("data/generated/deviations.tsv").read_text(encoding="utf-8"))
+
+
 class Page(unittest.TestCase):
     def test_entries_are_numbered_without_gap(self):
         names = HEADING.findall(PAGE.read_text(encoding="utf-8"))
@@ -78,16 +86,32 @@ class Page(unittest.TestCase):
                 self.assertTrue(typed_numbers(text))
 
     def test_every_key_is_in_the_table(self):
-        """That of make; with sanitizers the program computes it anew."""
-        program = EXPLORE.with_name("deviations")
-        table = (subprocess.run([program], capture_output=True, text=True, check=True).stdout if SANITIZED
-                 else Path("data/generated/deviations.tsv").read_text(encoding="utf-8"))
+        table = evidence()
         rendered = include(PAGE.read_text(encoding="utf-8"), table)
         self.assertEqual(rendered.stderr, "")
         self.assertEqual(rendered.returncode, 0)
         self.assertNotIn("{{", rendered.stdout)
         self.assertEqual(sorted(entries()), sorted({line[:4] for line in table.splitlines()
                                                     if line.startswith("D-")}))
+
+
+    def test_values(self):
+        """The printed sign is a negative stiffness that grows, without damping and suspension by l^2 = -k (1/m_s + 1/m_r), and has
+        no rest; the printed predictor stays where it is; 13 samples have folds that 64 do not have; a ball of 42 cm."""
+        table = Table.of(evidence())
+        value = dict(zip(table["key"], table["value"]))
+        k = value["D-01.stiffness_printed"]
+        self.assertLess(k, -10 * value["D-01.suspension"])
+        self.assertLess(value["D-01.growth_ours"], 0)
+        self.assertAlmostEqual(value["D-01.growth_printed"] / math.sqrt(-k * (1 / 20 + 1 / 40)), 1, delta=0.02)
+        self.assertLess(value["D-01.sag_printed"], value["D-01.sag"])
+        self.assertEqual(value["D-02.moved_printed"], 0)
+        self.assertLess(value["D-02.error_ours"], 0.2 * value["D-02.error_printed"])
+        self.assertGreater(value["D-04.error_text"], 0.5)
+        self.assertEqual((value["D-05.folds_m6_N13"], value["D-05.folds_m6_N64"]), (10, 0))  # confirmed in continuation.cpp
+        self.assertAlmostEqual(value["D-07.ball_radius_needed"] / 0.42, 1, delta=0.01)
+        self.assertLessEqual(value["D-08.penetration_hertz"], (value["D-08.force"] / 1e11) ** (2 / 3))  # of one ball
+        self.assertEqual(value["D-20.loadings_c0.5"], 1)  # in 2T, as the paper says of Fig. 7
 
 
 class Citations(unittest.TestCase):
