@@ -48,17 +48,6 @@ TEST_CASE("The predictor has the order of its cubic")
   CHECK(ratio > 11);
 }
 
-TEST_CASE("Arc length does not turn round onto its own branch")
-{
-  const Parameters parameters = set_1();
-  Balance balance(bearing_problem(parameters, 50), 6);
-  const Branch branch = follow_branch(balance, hertz(1), hertz(100),
-                                      quasi_static_start(parameters, hertz(1), 6),
-                                      arc_length_settings(parameters));
-  CHECK(branch.covered);
-  CHECK(branch.folds.size() % 2 == 0);
-}
-
 /** Catches old factors that are kept though they mislead: at every speed Newton with a dense
     matrix, factored at every point, leads to the same solution. */
 TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iterations")

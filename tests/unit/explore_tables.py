@@ -182,6 +182,10 @@ class Branch(Case):
         self.assertLess(row_difference(down, -1, up, 0), 1e-9)
         self.assertLess(row_difference(down, 0, up, -1), 1e-9)
 
+    def test_a_branch_does_not_turn_round_onto_itself(self):
+        branch = self.table("response", self.machine, "--from", 1, "--to", 100, "--harmonics", 6, "--samples", 50)
+        self.assertEqual((branch["f"][-1], branch.value("folds") % 2), (100, 0))
+
     def test_a_saved_branch_is_continued_either_way(self):
         table = self.response("--save", "branch.tsv")
         for options, row in ((["--at", 30], -1), (["--at", 30, "--direction", "down"], 0),

@@ -138,6 +138,11 @@ class Values(Case):
             self.assertEqual(orbit.value("harmonics"), table["harmonics"][k])
             self.assertAlmostEqual(table["error"][k] / orbit.value("error_rms"), 1, delta=0.01)
             self.assertLess(orbit.error("error"), 1e-3)
+        wide = self.file("wide.toml", changed(radial_clearance_m=1))  # where nothing touches
+        few, many, six = (self.table("orbit", machine, "--frequency", 30, "--method", "aft", "--tolerance", tolerance).value("harmonics")
+                          for machine, tolerance in ((self.machine, 1e-2), (self.machine, 1e-5), (wide, 1e-8)))
+        self.assertGreater(many, few)
+        self.assertEqual(six, 6)
 
     def test_multipliers_of_the_harmonics(self):
         """With 64 harmonics at 45 Hz the series is the machine; the distance is that of `orbit`. At 20 Hz the

@@ -46,17 +46,6 @@ TEST_CASE("The error of a solution is its distance from the motion that shooting
   }
 }
 
-TEST_CASE("Twice as many harmonics for a smaller tolerance, six where nothing touches")
-{
-  CHECK(found(set_1(), 30, 1e-5).motion.harmonics.count() >
-        found(set_1(), 30, 1e-2).motion.harmonics.count());
-  Parameters parameters = set_1();
-  parameters.bearing.clearance = 1;
-  const Judged at = found(parameters, 30, 1e-8);
-  CHECK(at.reached);
-  CHECK(at.motion.harmonics.count() == 6);
-}
-
 TEST_CASE("A solution at another speed is the first start")
 {
   const Judged at = found(set_1(), 45, 1e-4);
