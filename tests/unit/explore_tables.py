@@ -328,15 +328,11 @@ class Stability(Case):
             examined = np.flatnonzero(table["bifurcation"] == "-")
             for k in examined[::max(1, len(examined) // 6)]:
                 with self.subTest(how=how, frequency=table["f"][k]):
-                    verdict, multiplier = self.orbit_at(table["f"][k], harmonics)
-                    self.assertEqual(table["verdict"][k], verdict)
+                    orbit = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(table["f"][k])), "--harmonics", harmonics)
+                    multiplier = orbit.value("multiplier")
+                    self.assertEqual(table["verdict"][k], orbit.value("stability"))
                     self.assertAlmostEqual(table["multiplier"][k] / multiplier, 1, delta=1e-3)
                     self.assertLess(table["multiplier_change"][k], 1e-3 * max(1, multiplier))
-
-    def orbit_at(self, frequency, harmonics):
-        """Verdict and largest multiplier."""
-        table = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(frequency)), "--harmonics", harmonics)
-        return table.value("stability"), table.value("multiplier")
 
     def test_what_the_budget_does_not_allow_is_said(self):
         result = self.run_explore("response", self.machine, *WHOLE, "--harmonics", 6, "--stability", "--budget", "2.7e7")
@@ -353,14 +349,11 @@ class Stability(Case):
 
 
 class Attractors(Case):
-    def attractors(self, *options):
-        return self.table("attractors", self.machine, *options)
-
     def at(self, frequency, *options):
-        return self.attractors("--from", frequency, "--to", frequency, "--count", 1, *options)
+        return self.table("attractors", self.machine, "--from", frequency, "--to", frequency, "--count", 1, *options)
 
     def test_between_the_doublings_the_period_is_two_from_every_start(self):
-        table = self.attractors("--from", 19.75, "--to", 20.25, "--count", 3, "--section", "section.tsv")
+        table = self.table("attractors", self.machine, "--from", 19.75, "--to", 20.25, "--count", 3, "--section", "section.tsv")
         self.assertEqual(list(table.columns)[:10], ["f", "motion", "period", "starts", "lyapunov",
                                                     "lyapunov_uncertainty", *AMPLITUDES])
         np.testing.assert_array_equal(table["f"], [19.75, 20, 20.25])
@@ -415,7 +408,7 @@ class Attractors(Case):
 
     def test_two_attractors_at_one_speed_are_two_rows_and_those_of_the_kept_study(self):
         kept = Table(KEPT).where("set", 1)
-        table = self.attractors("--from", 25, "--to", 25.25, "--count", 2, "--starts", 8, "--section", "section.tsv")
+        table = self.table("attractors", self.machine, "--from", 25, "--to", 25.25, "--count", 2, "--starts", 8, "--section", "section.tsv")
         section = Table(self.folder / "section.tsv")
         for frequency in (25, 25.25):
             rows, known = (part.where("f", frequency) for part in (table, kept))
