@@ -157,6 +157,8 @@ class Values(Case):
                            "multiplier,uncertainty,series,series_uncertainty")
         self.assertAlmostEqual(table["series"][0], table["multiplier"][0], delta=2e-4)
         self.assertTrue((0 < table["uncertainty"] < 1e-4) and (0 < table["series_uncertainty"] < 1e-5))
+        fine = self.table("map", self.machine, "--y", "frequency=30:45:2", "--harmonics", 256, "--quantity", "multiplier,series")
+        np.testing.assert_allclose(fine["series"], fine["multiplier"], rtol=1e-4)
 
     def test_error_where_nothing_closes(self):
         """A stiff loose bearing at 30 Hz, whose contact vibrates without a period: the error of six harmonics is their

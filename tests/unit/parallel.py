@@ -80,7 +80,7 @@ class Parallel(Case):
     def test_coefficients_by_speed(self):
         """Linear between the rows of a table, constant beyond them; in a branch, its multipliers and a slow run-up too. Would catch a table
         that is read at another speed than the rotor's, and a branch that does not know how the coefficients change."""
-        self.file("seal.csv", "f,k_xx,k_yy,c_xx,c_yy,k_xy,k_yx\n20,0,0,0,0,0,0\n60,8e4,8e4,40,40,2e4,-2e4\n")
+        self.file("seal.csv", "f,k_xx,k_yy,c_xx,c_yy,k_xy,k_yx\n20,0,0,0,0,0,0\n\n60,8e4,8e4,40,40,2e4,-2e4\n")
         text = 'coefficients = "seal.csv"\n'
         for hertz, share in {10: 0, 40: 0.5, 60: 1, 90: 1}.items():
             exact = whirl(hertz, stiffness=share * (8e4 - 2e4j), damping=40 * share)

@@ -1,21 +1,9 @@
-/** Transforms, and how the error falls with the sample count N. */
-#include "costs/timed_method.hpp"
+/** Transforms, and the default sample count N. */
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
-using namespace rotor_stator::costs;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
-
-namespace {
-
-/** The order p of an error that falls as m^-p. */
-double order(const std::vector<double>& m, const std::vector<double>& errors)
-{
-  return -fitted_exponent(m, errors);
-}
-
-}  // namespace
 
 TEST_CASE("Series to samples and back is the identity")
 {
@@ -59,37 +47,6 @@ TEST_CASE("Half peak-to-peak of a known motion")
   Eigen::MatrixXd series = Eigen::MatrixXd::Zero(1, 5);
   series << 7, 3, 4, 0, 0;
   CHECK(half_peak_to_peak(series)[0] == Approx(5).epsilon(1e-8));
-}
-
-/** Catches a default N that grows more slowly than m^{7/5} (largest error) or m^{8/5} (rms): with 8m+1 the
-    orders are 2.7 and 2.5. The orders 7/2 and 4 are those of a force that begins as d^{3/2}. */
-TEST_CASE("With the default N the error falls with m in the order of truncation")
-{
-  const Parameters machine = set_1();
-  const auto motion_with = [&](int m, int samples) {
-    const PeriodicMotion motion = find_periodic(
-        {machine, hertz(30), m, samples, NewtonSettings{.tolerance = 1e-12}});
-    REQUIRE(motion.found());
-    return motion_of(motion.bodies, 2048);
-  };
-  const Motion truth = motion_with(1024, 1 << 16);
-  std::vector<double> sizes, largest, rms, coarse_largest, coarse_rms;
-  for (int m : {32, 64, 96, 128, 192, 256, 384, 512}) {
-    const Motion motion = motion_with(m, default_samples(m));
-    /** At m = 32 a resonance of the contact adds a hundred times as much. */
-    CHECK(relative_difference(motion, truth) < 50 * std::pow(m, -3.5));
-    if (m < 64) continue;
-    const Motion coarse = motion_with(m, fast_transform_size(8 * m + 1));
-    sizes.push_back(m);
-    largest.push_back(relative_difference(motion, truth));
-    rms.push_back(rms_difference(motion, truth));
-    coarse_largest.push_back(relative_difference(coarse, truth));
-    coarse_rms.push_back(rms_difference(coarse, truth));
-  }
-  CHECK(order(sizes, largest) > 3.5);
-  CHECK(order(sizes, rms) > 3.9);
-  CHECK(order(sizes, coarse_largest) < 3);
-  CHECK(order(sizes, coarse_rms) < 3);
 }
 
 TEST_CASE("Up to 64 harmonics the default N is 8m+1, and at least 32")

@@ -57,25 +57,6 @@ TEST_CASE("The product of the multipliers is Liouville's, in contact, above 20 H
     }
 }
 
-TEST_CASE("Shooting and harmonic balance find the same motion and the same multipliers")
-{
-  const Parameters parameters = set_1();
-  for (double frequency : {30.0, 45.0}) {
-    const auto solution = solution_at(parameters, frequency, 256);
-    State state = state_of(solution_at(parameters, frequency, 6));
-    const Shooting shooting =
-        shoot(parameters, solution.omega, state, {.tolerance = 1e-13, .closed = 1e-11});
-    INFO(frequency << " Hz: " << shooting.reason);
-    REQUIRE(shooting.converged);
-    const Vector8 error = (vector_of(state) - vector_of(state_of(solution)))
-                              .cwiseQuotient(state_scales(parameters));
-    CHECK(error.head<4>().norm() < 1e-6);
-    const auto motion = series_multipliers(parameters, solution);
-    const Eigen::VectorXcd values = eigenvalues(shooting.derivative);
-    CHECK(values.cwiseAbs().maxCoeff() == Approx(motion.largest()).epsilon(1e-4));
-  }
-}
-
 TEST_CASE("Shooting says why it stops")
 {
   State state = static_start(set_1());

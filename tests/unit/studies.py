@@ -27,6 +27,7 @@ import verdicts
 from sensitivity_derivatives import derivative
 from tables import displacement_errors
 from stability import rows_of
+from tests.truth.independent import displacements, errors
 from tests.support.explore import EXPLORE, FULL, Case, Table
 
 STUDY = """machine: {machine}
@@ -229,7 +230,7 @@ class Maps(unittest.TestCase):
         self.assertEqual([map_scaling.written(s) for s in (30, 90, 7200, 3.2e8)], ["30 s", "1.5 minutes", "2 hours", "10 years"])
 
 
-class Sampling(unittest.TestCase):
+class Sampling(Case):
     SCENE = {"samples_over_m": [2, 3], "fine_over_m": 128, "reference_harmonics": 256}
 
     def test_the_usual_number_samples_finer_than_the_series_is_truncated(self):
@@ -241,6 +242,22 @@ class Sampling(unittest.TestCase):
                 self.assertEqual((usual[1], few[1]), (sampling.fast_size(8 * m + 1), sampling.fast_size(2 * m + 1)))
                 self.assertTrue((usual[5:7] < usual[8:10]).all(), (machine, m))
                 self.assertGreater(few[4], usual[4])
+
+    def test_the_error_falls_in_the_order_of_truncation(self):
+        """With the default N. With 8m+1 samples the orders are 2.7 (largest error) and 2.5 (rms); 7/2 and 4 are those of a force that
+        begins as d^(3/2). Would catch a default N that grows more slowly than m^(7/5) or m^(8/5)."""
+        def motion(m, *samples):
+            return displacements(self.table("orbit", self.machine, "--frequency", 30, "--points", 2048, "--no-stability",
+                                            "--newton-tolerance", 1e-12, "--budget", 1e11, "--harmonics", m, *samples))
+
+        truth, sizes = motion(1024, "--samples", 2**16), np.array([64, 96, 128, 192, 256, 384, 512])
+        # At m = 32 a resonance of the contact adds a hundred times as much.
+        self.assertLess(errors(motion(32), truth)[0], 50 * 32**-3.5)
+        fine = np.array([errors(motion(m), truth) for m in sizes])
+        coarse = np.array([errors(motion(m, "--samples", sampling.fast_size(8 * m + 1)), truth) for m in sizes])
+        self.assertTrue((fine[:, 0] < 50 * sizes**-3.5).all(), fine)
+        orders, coarse_orders = (-np.polyfit(np.log(sizes), np.log(off), 1)[0] for off in (fine, coarse))
+        self.assertTrue((orders > (3.5, 3.9)).all() and (coarse_orders < 3).all(), (orders, coarse_orders))
 
     def test_fast_sizes(self):
         """The even numbers without a factor above 7, up to 40."""

@@ -45,21 +45,3 @@ TEST_CASE("A key has one finite value, of one word")
   CHECK_THROWS_AS(table.detail("delta = nan m"), NoSolution);
   CHECK_NOTHROW(table.note("of 'nan.tsv', infinite, info"));
 }
-
-TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")
-{
-  const std::string file = PROGRAM_DIR "/number_table_test.tsv";
-  const auto written = [&](const std::string& content) {
-    std::ofstream(file) << content;
-    return NumberTable(file);
-  };
-  const NumberTable table = written("# a header\nf\tx\n1\t-2.5e-3\n\n3\t4\n");
-  CHECK(table.rows() == 2);
-  CHECK(table.at(0, "x") == -2.5e-3);
-  CHECK(table.at(1, "f") == 3);
-  CHECK_THROWS_AS(table.at(0, "y"), BadInput);
-  CHECK_THROWS_WITH(written("f\tx\n1\n"), contains(":2: 1 cells, must be 2"));
-  CHECK_THROWS_WITH(written("f\tx\n1\ta\n"), contains("'a' is not a finite number"));
-  CHECK_THROWS_AS(written("f\tx\n"), BadInput);
-  CHECK_THROWS_AS(NumberTable("no such file"), BadInput);
-}
