@@ -151,6 +151,14 @@ class Tables(unittest.TestCase):
             for text in texts:
                 self.assertIn(in_words(claims), " ".join(text.split()))
 
+    def test_each_ball_is_passed_once_per_2T_at_45_hz_and_not_at_13_5_hz(self):
+        rows = Table(FOLDERS[0] / "regimes.tsv").where("set", 1)
+        high, middle = (rows.where("f", speed) for speed in (45, 13.5))
+        self.assertEqual([high.first(name) for name in ("passed_once", "contact", "turns", "periodic")], [1, 1, 1, 1])
+        self.assertLess(high.first("higher_harmonics"), 0.01)
+        self.assertLess(middle.first("contact"), 1)
+        self.assertEqual(middle.first("periodic"), 0)
+
     def test_the_closed_form_of_the_loss_of_contact(self):
         """Against the two rigid bodies as one oscillator, by hand: its response gives the force of the joint."""
         for folder, reading in zip(FOLDERS, ("", "-as-printed")):

@@ -70,23 +70,6 @@ TEST_CASE("Passages are counted around the end of the two periods")
   CHECK(passages_per_ball(force) == std::vector<int>{1, 1, 0});
 }
 
-TEST_CASE("At 45 Hz each ball of set 1 is passed once per 2T, at 13.4 Hz not")
-{
-  const RegimeSettings settings{.step_over_default = 2,
-                                .longest = 4,
-                                .window = 0.5,
-                                .average = 1,
-                                .points_per_period = 64};
-  const auto regimes = regimes_of(set_1(), {45, 13.4}, settings);
-  const Regime &high = regimes[0], &middle = regimes[1];
-  CHECK(high.passed_once == 1);
-  CHECK(high.contact == 1);
-  CHECK(high.all < 0.01);
-  CHECK(high.turns == 1);
-  CHECK(middle.contact < 1);
-  CHECK_FALSE(middle.periodic);
-}
-
 /** Would catch an order or a result that depends on the threads, and an exception that stays in one. */
 TEST_CASE(
     "Pieces are computed in order by any number of threads, and the first failure is told")
