@@ -38,48 +38,6 @@ TEST_CASE("Free modes: the decay of each body apart, and of both as one when joi
   CHECK(free_modes(p, 1e12).real().maxCoeff() == Approx(-joined).epsilon(1e-4));
 }
 
-TEST_CASE("D-02: the printed predictor returns the last point exactly")
-{
-  std::vector<PeriodicMotion> known;
-  for (int k = 0; k < 4; ++k)
-    known.push_back(
-        {.omega = 100 + 1.7 * k, .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)});
-  const PeriodicMotion next = printed_prediction(known);
-  CHECK(next.x == known.back().x);
-  CHECK(next.omega == known.back().omega);
-}
-
-TEST_CASE("D-04, D-21: gamma with parentheses inverts the samples, and only so")
-{
-  for (int m : {1, 3, 6}) {
-    const int n = 2 * m + 1;
-    const auto defect = [&](Argument argument) {
-      return (gamma_matrix(m, n, argument) * gamma_inverse(m, n) -
-              Eigen::MatrixXd::Identity(n, n))
-          .norm();
-    };
-    CHECK(defect(Argument::parenthesised) < 1e-13);
-    CHECK(defect(Argument::printed) > 0.1);
-  }
-}
-
-TEST_CASE("The plain equations have the solution of the condensed ones")
-{
-  const Parameters p = set_1();
-  const auto solution = require_periodic(p, 30, 4, 32);
-  PlainBalance plain(p, hertz(30), 4, 32);
-  const Eigen::VectorXd x = solution.bodies.reshaped();
-  CHECK(plain.residual(x).norm() < 1e-6 * plain.load().norm());
-  CHECK(plain.corrected_step(x).norm() < 1e-8 * x.norm());
-
-  /** D-06: the printed step does not vanish there. */
-  CHECK(plain.printed_step(x).norm() > 1e-3 * x.norm());
-
-  /** D-12: nor is it a solution with the printed block, unless there is one harmonic. */
-  PlainBalance printed(p, hertz(30), 4, 32, FirstEntry::printed);
-  CHECK(printed.residual(x).norm() > 1e-5 * printed.load().norm());
-}
-
 TEST_CASE("The plain Jacobian is the slope of the plain residual")
 {
   const Parameters p = set_1();
