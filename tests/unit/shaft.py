@@ -52,15 +52,13 @@ class Shaft(Case):
         return [mmread(self.folder / f"shaft/{name}.mtx").toarray() for name in "MCGK"]
 
     def whirl(self, text, rpm):
-        """Frequencies [rad/s], ascending, and whether each whirls in the direction of rotation."""
+        """Frequencies [rad/s], ascending."""
         m, c, g, k = self.matrices(text)
         n, speed = len(m), rpm * np.pi / 30
         a = np.block([[np.zeros((n, n)), np.eye(n)],
                       [-np.linalg.solve(m, k), -np.linalg.solve(m, c + speed * g)]])
-        values, vectors = np.linalg.eig(a)
-        order = [i for i in np.argsort(values.imag) if values[i].imag > 0]
-        x, y = vectors[0:n:4, order], vectors[1:n:4, order]
-        return values.imag[order], (x * np.conj(y)).imag.sum(0) > 0
+        values = np.linalg.eigvals(a).imag
+        return np.sort(values[values > 0])
 
     def test_whole_or_not_at_all(self):
         """Would catch two matrices of one shaft beside two of another, a folder without all four, and the matrices of others."""
@@ -86,7 +84,7 @@ class Shaft(Case):
                 ("5.9.2", two_disks(6, 1e6, 8e5), 4000, [82.33, 86.86, 239.64, 287.25, 583.49]),
                 ("5.9.9", OVERHUNG, 0, [90.14, 90.14, 630.73, 630.73, 830.43, 830.43])]:
             with self.subTest(name=name, rpm=rpm):
-                for value, printed in zip(self.whirl(text, rpm)[0], published):
+                for value, printed in zip(self.whirl(text, rpm), published):
                     self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
 
     def untouched(self, text, dofs=([1, 2], [1, 2])):
@@ -148,7 +146,7 @@ class Shaft(Case):
             self.assertGreater(len(critical), 3)
             for speed, line, mode, frequency in zip(*(critical[name] for name in ("f", "line", "mode", "frequency"))):
                 self.assertAlmostEqual(frequency / speed, {"1X": 1, "BPFO": 3.2}[line], places=6)
-                self.assertAlmostEqual(self.whirl(text, 60 * speed)[0][int(mode) - 1] / (2 * np.pi), frequency, places=4)
+                self.assertAlmostEqual(self.whirl(text, 60 * speed)[int(mode) - 1] / (2 * np.pi), frequency, places=4)
 
     def test_one_linearisation(self):
         """97.697 Hz is the root of the mean force's slope at the displacement where that force is the weight. With much damping
@@ -174,11 +172,6 @@ class Shaft(Case):
         matrices = self.values(large, *speeds)
         for name, same in [("f_1", "f_1_x"), ("f_2", "f_1_y")]:
             self.assertAlmostEqual(matrices[name] / values[same], 1, delta=1e-6)
-
-    def test_forward_whirl_becomes_faster(self):
-        """The other sign of G only exchanges the two, which the frequencies do not show."""
-        _, forward = self.whirl(two_disks(6, 1e6, 1e6), 4000)
-        self.assertEqual(list(forward[:4]), [False, True, False, True])
 
     def test_units_of_a_shaft(self):
         """What no shaft has is doubted; the mass is that of all bodies on it."""
