@@ -49,24 +49,6 @@ Oscillator two_masses_cubic()
           }};
 }
 
-Oscillator two_masses_unilateral()
-{
-  Eigen::Matrix2d stiffness;
-  stiffness << 1, -1, -1, 2;
-  return {Eigen::Matrix2d::Identity(), 0.03 * stiffness, stiffness,
-          Eigen::Vector2d(0, 0.1), [](const Eigen::VectorXd& q) {
-            const bool touching = q[0] > 1;
-            Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
-            slope(0, 0) = touching ? 100 : 0;
-            return LocalForce{Eigen::Vector2d(touching ? 100 * (q[0] - 1) : 0, 0), slope};
-          }};
-}
-
-double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h)
-{
-  return std::hypot(x[(2 * h - 1) * dofs + row], x[2 * h * dofs + row]);
-}
-
 void check_same(const std::vector<double>& found, const std::vector<double>& known,
                 double tolerance)
 {

@@ -43,11 +43,6 @@ struct Oscillator {
 
 Oscillator duffing();
 Oscillator two_masses_cubic();
-Oscillator two_masses_unilateral();
-
-/** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
-    variables. */
-double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h);
 
 /** data/set1.toml. */
 Parameters set_1();
