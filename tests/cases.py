@@ -10,7 +10,7 @@ import math
 import numpy as np
 from scipy.io import mmread
 
-from tests.machines import table
+from tests.machines import entries, written
 from tests.truth.independent import displacements, errors, model_of
 from tests.unit.shaft import two_disks
 from tests.support.explore import AMPLITUDES, CASES, MACHINE, SETS, Case, changed, some, with_table
@@ -20,24 +20,8 @@ def machine(name):
     return CASES / f"{name}.toml"
 
 
-CATALOGUE = """title = "a free rotor"
-[stator]
-{stator}
-[rotor]
-mass_kg = {mass}
-natural_frequency_Hz = 0
-damping_N_s_per_m = {damping}
-unbalance_kg_m = {unbalance}
-[bearing]
-{bearing}
-[gravity]
-acceleration_m_per_s2 = 9.81
-"""
-FREE = CATALOGUE.replace("{bearing}", """balls = 9
-radial_clearance_m = 1.025e-5
-cage_speed_ratio = 0.398309426229508
-contact_exponent = {exponent}
-contact_stiffness_N_per_mn = {stiffness}""")
+FREE = {"natural_frequency_Hz": 0}
+ROLLERS = {"balls": 9, "radial_clearance_m": 1.025e-5, "cage_speed_ratio": 0.398309426229508}
 
 
 class Cases(Case):
@@ -377,6 +361,12 @@ class Measures(Case):
 class Uncertainties(Case):
     """What a sceptical reader found wrong: a printed error holds every source."""
 
+    def made(self, rotor, bearing, stator=None, gravity=9.81):
+        """The file of a machine by its tables; the stator is rigid where it has none."""
+        return self.file("own.toml", written(entries({
+            "stator": stator or {"rigid": True}, "rotor": rotor, "bearing": bearing,
+            "gravity": {"acceleration_m_per_s2": gravity}})))
+
     def test_extremes_of_chaos_scatter_as_printed(self):
         """Amplitudes over 256 periods of eight neighbours, against their standard errors;
         those of a mean of parts were half as large."""
@@ -399,9 +389,8 @@ class Uncertainties(Case):
 
     def test_a_force_that_is_not_smooth(self):
         """Rollers: one halving of the step was no estimate. Against steps far smaller."""
-        text = FREE.format(stator="rigid = true", mass=13.9, damping=1101.1, unbalance=1.54e-5, exponent=10 / 9,
-                           stiffness="3e8\ncontact_damping_s_per_m = 0.69")
-        own = self.file("rollers.toml", text)
+        own = self.made({"mass_kg": 13.9, "damping_N_s_per_m": 1101.1, "unbalance_kg_m": 1.54e-5, **FREE},
+                        {**ROLLERS, "contact_exponent": 10 / 9, "contact_stiffness_N_per_mn": 3e8, "contact_damping_s_per_m": 0.69})
         usual, exact = (self.table("orbit", own, "--frequency", 57.6, *how) for how in ([], ["--tolerance", 1e-6]))
         for key, error in zip(("error_largest", "error_rms"), errors(displacements(usual), displacements(exact))):
             self.assertLessEqual(error, 1.1 * usual.value(key))
@@ -423,9 +412,8 @@ class Uncertainties(Case):
     def test_slow_torus_is_not_called_chaotic_at_the_first_look(self):
         """Neighbours came nearer by 0.5 +- 0.2 /s over 60 s of an integration written
         apart; in the first seconds they part."""
-        table = self.table("orbit", self.file("own.toml", CATALOGUE.format(
-            stator="rigid = true", mass=2.566, damping=769.8, unbalance=2.573e-5, bearing='designation = "6306 C4"')),
-            "--frequency", 23.494, "--points", 4)
+        own = self.made({"mass_kg": 2.566, "damping_N_s_per_m": 769.8, "unbalance_kg_m": 2.573e-5, **FREE}, {"designation": "6306 C4"})
+        table = self.table("orbit", own, "--frequency", 23.494, "--points", 4)
         self.assertNotEqual(table.value("regime"), "chaotic")
         self.assertLess(table.value("lyapunov") - 3 * table.value("lyapunov_uncertainty"), 0)
 
@@ -451,21 +439,19 @@ class Uncertainties(Case):
         of usual length close after 8 turns, with the multiplier 1.246 of Eq. 7, RK4 with 2,000 steps in a turn after
         16; a doubling of 2.7e-6 of the amplitude, where the motion of one turn has the multiplier -1.032."""
         def at(speed, *, balls, stiffness, clearance, cage, stator=None, gravity=0, **rotor):
-            text = (table("stator", **(stator or {"rigid": True})) + table("rotor", **rotor)
-                    + table("bearing", balls=balls, contact_stiffness_N_per_m1p5=stiffness, radial_clearance_m=clearance, cage_speed_ratio=cage)
-                    + table("gravity", acceleration_m_per_s2=gravity))
-            return self.table("orbit", self.file("own.toml", 'title = "own"\n' + text), "--frequency", speed, "--points", 4)
-        free = {"natural_frequency_Hz": 0}
+            own = self.made(rotor, {"balls": balls, "contact_stiffness_N_per_m1p5": stiffness, "radial_clearance_m": clearance,
+                                    "cage_speed_ratio": cage}, stator, gravity)
+            return self.table("orbit", own, "--frequency", speed, "--points", 4)
         slow = at(112.14, balls=8, stiffness=1.6e10, clearance=1.97e-5, cage=3 / 8, mass_kg=15.2, damping_N_s_per_m=1740, unbalance_kg_m=2.85e-4,
-                  stator={"mass_kg": 9.5, "natural_frequency_Hz": 102, "damping_ratio": 0.198}, **free)
+                  stator={"mass_kg": 9.5, "natural_frequency_Hz": 102, "damping_ratio": 0.198}, **FREE)
         self.assertAlmostEqual(slow.value("lyapunov"), -1.9, delta=0.3)
         self.assertNotEqual(slow.value("regime"), "chaotic")
         long = at(87, balls=11, stiffness=7.35e9, clearance=1.9e-5, cage=4 / 11, mass_kg=2.17, damping_N_s_per_m=40.3, unbalance_kg_m=7.85e-5,
-                  stator={"mass_kg": 2.11, "natural_frequency_Hz": 31.05, "damping_ratio": 0.00799}, **free)
+                  stator={"mass_kg": 2.11, "natural_frequency_Hz": 31.05, "damping_ratio": 0.00799}, **FREE)
         self.assertEqual(self.said(long, "period", "stability"), [14, "stable"])
         self.assertAlmostEqual(long.value("lyapunov"), -2.18, delta=0.07)
         drifts = at(59.05, balls=16, stiffness=5.9e9, clearance=5.72e-5, cage=3 / 8, mass_kg=7.82, damping_N_s_per_m=767, unbalance_kg_m=1.12e-4,
-                    stator={"mass_kg": 14.2, "natural_frequency_Hz": 216.8, "damping_ratio": 0.00545}, **free)
+                    stator={"mass_kg": 14.2, "natural_frequency_Hz": 216.8, "damping_ratio": 0.00545}, **FREE)
         self.assertEqual(self.said(drifts, "stability", "error_largest", "contact"), ["undecided", None, "no"])
         apart = at(30, balls=9, stiffness=1e10, clearance=1e-3, cage=0.41, mass_kg=5, natural_frequency_Hz=15, damping_ratio=0.05, unbalance_kg_m=1e-4)
         self.assertEqual(self.said(apart, "base", "regime", "period", "stability"), ["two", "periodic", 1, "stable"])
@@ -476,7 +462,7 @@ class Uncertainties(Case):
         self.assertLess(abs(locked.value("lyapunov")), 0.3)
         self.assertEqual(locked.value("regime"), "quasi-periodic")
         for speed, period in ((41.25, 16), (41.27, 8)):
-            doubled = at(speed, balls=8, stiffness=1.605e10, clearance=4.241e-5, cage=3 / 8, gravity=9.81, **free,
+            doubled = at(speed, balls=8, stiffness=1.605e10, clearance=4.241e-5, cage=3 / 8, gravity=9.81, **FREE,
                          mass_kg=1.13, damping_N_s_per_m=393.4, unbalance_kg_m=2.101e-5,
                          stator={"mass_kg": 7.16, "natural_frequency_rad_per_s": 587.6, "damping_ratio": 0.125})
             self.assertEqual(self.said(doubled, "period", "stability"), [period, "stable"])
@@ -484,30 +470,27 @@ class Uncertainties(Case):
                     natural_frequency_rad_per_s=500, damping_ratio=0.02, unbalance_kg_m=0.05,
                     stator={"mass_kg": 5.87, "natural_frequency_rad_per_s": 150, "damping_ratio": 0.05})
         self.assertEqual(self.said(hardly, "period", "stability"), [2, "stable"])
-        named = 'title = "own"\n' + table("stator", rigid=True) + "[rotor]\n{rotor}\n[bearing]\n{bearing}\n" + table("gravity", acceleration_m_per_s2=0)
-        for speed, rotor, bearing, regime in [
-                (53.303, "mass_kg = 2.262\nnatural_frequency_Hz = 62.1\ndamping_ratio = 0.0127\nunbalance_kg_m = 8.127e-5",
-                 'designation = "6308 C4"', "quasi-periodic"),
-                (16.128, "mass_kg = 4.285\nnatural_frequency_Hz = 0\ndamping_N_s_per_m = 154.5\nunbalance_kg_m = 1.046e-4",
-                 'designation = "6206"', "chaotic")]:
-            own = self.table("orbit", self.file("own.toml", named.format(rotor=rotor, bearing=bearing)), "--frequency", speed, "--points", 4)
-            self.assertEqual(own.value("regime"), regime)
-            self.assertLess(own.value("error_largest", 0), 0.01)
+        for speed, name, regime, rotor in [
+                (53.303, "6308 C4", "quasi-periodic", {"mass_kg": 2.262, "natural_frequency_Hz": 62.1, "damping_ratio": 0.0127, "unbalance_kg_m": 8.127e-5}),
+                (16.128, "6206", "chaotic", {"mass_kg": 4.285, "damping_N_s_per_m": 154.5, "unbalance_kg_m": 1.046e-4, **FREE})]:
+            found = self.table("orbit", self.made(rotor, {"designation": name}, gravity=0), "--frequency", speed, "--points", 4)
+            self.assertEqual(found.value("regime"), regime)
+            self.assertLess(found.value("error_largest", 0), 0.01)
 
     def test_starts_on_one_chaotic_motion_are_one_attractor(self):
         """Its means and scatters over 256 base periods differ by more than a tenth."""
-        body = "mass_kg = 1.863\nnatural_frequency_rad_per_s = 968.239\ndamping_N_s_per_m = 38.21"
-        table = self.table("attractors", self.file("own.toml", CATALOGUE.format(
-            stator=body, mass=3.4, damping=100, unbalance=1.511e-5,
-            bearing='designation = "6208 C4"\ncontact_damping_s_per_m = 0.1605')),
-            "--from", 58, "--to", 58, "--count", 1, "--starts", 12)
+        own = self.made({"mass_kg": 3.4, "damping_N_s_per_m": 100, "unbalance_kg_m": 1.511e-5, **FREE},
+                        {"designation": "6208 C4", "contact_damping_s_per_m": 0.1605},
+                        {"mass_kg": 1.863, "natural_frequency_rad_per_s": 968.239, "damping_N_s_per_m": 38.21})
+        table = self.table("attractors", own, "--from", 58, "--to", 58, "--count", 1, "--starts", 12)
         self.assertEqual([list(table[name]) for name in ("period", "starts")], [[0], [13]])
 
     def test_phases_of_one_motion_are_one_attractor(self):
         """A motion of four passages, met in all its phases."""
-        text = FREE.format(stator="mass_kg = 26.7\nstiffness_N_per_m = 11262375\ndamping_N_s_per_m = 1040.5", mass=4.92, damping=460.1,
-                           unbalance=0, exponent=1.0, stiffness="5e7")
-        table = self.table("attractors", self.file("own.toml", text), "--from", 85.1, "--to", 86, "--count", 2, "--starts", 2)
+        own = self.made({"mass_kg": 4.92, "damping_N_s_per_m": 460.1, "unbalance_kg_m": 0, **FREE},
+                        {**ROLLERS, "contact_exponent": 1.0, "contact_stiffness_N_per_mn": 5e7},
+                        {"mass_kg": 26.7, "stiffness_N_per_m": 11262375, "damping_N_s_per_m": 1040.5})
+        table = self.table("attractors", own, "--from", 85.1, "--to", 86, "--count", 2, "--starts", 2)
         self.assertEqual([list(table[name]) for name in ("motion", "period", "starts")], [[1, 1], [4, 2], [4, 4]])
 
 
