@@ -184,7 +184,8 @@ class Branch(Case):
 
     def test_a_branch_does_not_turn_round_onto_itself(self):
         branch = self.table("response", self.machine, "--from", 1, "--to", 100, "--harmonics", 6, "--samples", 50)
-        self.assertEqual((branch["f"][-1], branch.value("folds") % 2), (100, 0))
+        self.assertAlmostEqual(branch["f"][-1], 100)
+        self.assertEqual(branch.value("folds") % 2, 0)
 
     def test_a_saved_branch_is_continued_either_way(self):
         table = self.response("--save", "branch.tsv")
