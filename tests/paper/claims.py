@@ -174,3 +174,4 @@ class Tables(unittest.TestCase):
             static = abs(m_s * g - m_s * w_s ** 2 * sag)
             rotating = abs((m_s * w_s ** 2 - m_s * omega ** 2 + 2j * xi_s * m_s * w_s * omega) * swing)
             self.assertAlmostEqual(rotating / static, 1, delta=1e-4)
+        self.assertAlmostEqual(Table(FOLDERS[0] / "tab01_parameters.tsv").first("f_loss") / 13.155, 1, delta=1e-3)

@@ -9,31 +9,6 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-/** The closed form knows nothing of clearance and Hertz's law. The narrower the clearance, the narrower is the
-    band around it in which integration loses contact; below it gravity holds the force, above it the force turns with the rotor.
-    Would catch a wrong ratio of the joint's forces: 3 % in speed is 7 % in the unbalance. */
-TEST_CASE(
-    "Contact is lost at the speed of the closed form, in a band that closes with the "
-    "clearance")
-{
-  Parameters machine = set_1();
-  const double loss =
-      equal_force_speeds(machine, joint_resonance(machine)).front() / angular(1);
-  CHECK(loss == Approx(13.155).epsilon(1e-3));
-  const auto at = [&](double clearance, double ratio) {
-    machine.bearing.clearance = clearance;
-    return regimes_of(machine, {ratio * loss}, {1, 4, 0.5, 1, 2048}).front();
-  };
-  CHECK(at(2e-5, 0.97).contact < 1);
-  CHECK(at(2e-5, 1.03).contact < 1);
-  CHECK(at(1e-6, 1).contact < 1);
-  const Regime below = at(1e-6, 0.97), above = at(1e-6, 1.03);
-  CHECK(below.contact == 1);
-  CHECK(below.turns == 0);
-  CHECK(above.contact == 1);
-  CHECK(above.turns == 1);
-}
-
 TEST_CASE(
     "A force that turns with the rotor, one that swings, and one that is zero at times")
 {
