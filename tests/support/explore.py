@@ -17,6 +17,7 @@ NAMES, FORCES = ["x_s", "y_s", "x_r", "y_r"], ["F_x", "F_y"]
 AMPLITUDES = [f"amp_{name}" for name in NAMES]
 RESPONSE = ["--from", "20", "--to", "21"]
 ORBIT = ["--frequency", "45", "--points", "4"]
+SIX, TO_1E_3 = ["--harmonics", 6], ["--method", "aft", "--tolerance", 1e-3]  # with one frequency, with one or two
 SANITIZED = "SANITIZED" in os.environ  # slower, ten times and more
 FULL = "FULL" in os.environ  # as `make test-all` sets it
 NO_NUMBER = re.compile(r"(?<![^\W_])(nan|inf|infinity)(?![^\W_])", re.IGNORECASE)

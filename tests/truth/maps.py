@@ -16,13 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from tests.truth.independent import Model, displacements, errors, state_at_zero
-from tests.support.explore import MACHINE, Case, Table
+from tests.support.explore import MACHINE, SIX, Case, Table
 from project import source_line
 from tables import cells_as_numbers, print_columns
 
 KEPT = Path("data/reference").resolve()
 INSTANTS, SAME = 64, 0.05  # of a turn; of the largest displacement
-SIX = ["--harmonics", 6]
 COLUMNS = [("map", "-", "1 clearance and speed, 2 clearance and stiffness"), ("x", "Hz or m", "speed, or clearance"),
            ("y", "m or N/m^1.5", "clearance, or contact stiffness"),
            ("value", "-", "1: period K, 0 aperiodic, below 0 not decided; 2: error of six harmonics"),

@@ -10,12 +10,11 @@ import numpy as np
 
 from tests.truth.independent import ask, displacements, model_of, state_at_zero
 from tests.machines import SET_1, entries, random_machine, written
-from tests.support.explore import AMPLITUDES, CASES, SETS, Case, Table, some
+from tests.support.explore import AMPLITUDES, CASES, SETS, SIX, Case, Table, some
 
 START = [0.96, 0.66, 0.32, 0.09]  # near the motion of the two masses at 0.635
 SAME, NEAR_ONE = 0.05, 0.002  # of the largest displacement; of the modulus
 # Where six harmonics are right about themselves and wrong about the machine, and some where they are right.
-SIX = ["--harmonics", 6]
 SPEEDS = {1: [1.03, 6.18, 10.3, 15.45, 19.57, 20, 24.72, 25.75, 30.9, 35.02, 40.17, 45.32, 50.47, 53.9, 54, 57.68],
           2: [21.63, 22.66, 27.81, 31.93, 37.08, 40.17, 43.26, 45.32, 49.44, 53.56, 57.68]}
 

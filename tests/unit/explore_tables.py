@@ -9,11 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.support.explore import AMPLITUDES, FULL, MACHINE, NAMES, SETS, Case, Table, changed, some
+from tests.support.explore import AMPLITUDES, FULL, MACHINE, NAMES, SETS, TO_1E_3, Case, Table, changed, some
 
 KEPT = Path("data/reference/attractors.tsv").resolve()
 WHOLE = ["--from", "1", "--to", "60"]
-TO_1E_3 = ["--method", "aft", "--tolerance", 1e-3]  # with two frequencies or one
 
 
 def difference(a, b):

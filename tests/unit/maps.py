@@ -6,10 +6,9 @@ import re
 import numpy as np
 
 from tests.truth.independent import displacements, errors
-from tests.support.explore import MACHINE, Case, Table, changed, with_table
+from tests.support.explore import MACHINE, SIX, Case, Table, changed, with_table
 
 CLEARANCE = "bearing.radial_clearance_m"
-SIX = ["--harmonics", 6]
 GRID = [*SIX, "--x", "frequency=20:50:5", "--y", f"{CLEARANCE}=0:1e-4:7", "--quantity", "amplitude,contact_share"]
 
 

@@ -12,11 +12,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from tests.support.explore import EXPLORE, MACHINE, Case, Table, changed, some, with_table
+from tests.support.explore import EXPLORE, MACHINE, SIX, TO_1E_3, Case, Table, changed, some, with_table
 
 AT_45 = ["--frequency", 45, "--points", 64]
 TO_45 = ["--from", 44, "--to", 45]
-SIX, TO_1E_3 = ["--harmonics", 6], ["--method", "aft", "--tolerance", 1e-3]  # with one frequency, with two
 CARRIED = with_table('[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"')
 
 
