@@ -126,17 +126,3 @@ TEST_CASE("Neighbours part at the rate of the largest multiplier")
     CHECK(std::abs(measured.value - exact.value) < 0.5 + 3 * measured.error);
   }
 }
-
-TEST_CASE(
-    "The distance of a motion to itself is zero, to rest one, and blind to the mean")
-{
-  motion::Motion moving{8, 0, {}}, rest{8, 0, std::vector<Bodies>(8)};
-  for (int k = 0; k < 8; ++k)
-    moving.positions.push_back({{1e-5 * k, -1e-5}, {2e-5, 4e-5 * (k % 3)}});
-  CHECK(motion::rms_difference(moving, moving) == 0);
-  CHECK(motion::rms_difference(rest, moving) == Approx(1));
-  motion::Motion sagging = moving;
-  for (Bodies& q : sagging.positions) q.stator.y -= 1e-3, q.rotor.y -= 1e-3;
-  CHECK(motion::rms_difference(sagging, moving) == Approx(0).margin(1e-12));
-  CHECK(motion::relative_difference(sagging, moving) > 10);
-}

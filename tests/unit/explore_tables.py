@@ -54,6 +54,11 @@ class Motion(Case):
         np.testing.assert_allclose(force, three["F_x"][:128], rtol=1e-9, atol=1e-6)
         self.assertEqual((list(balls.columns), len(balls), balls["Q"].min()), (["t_over_T", "ball", "Q"], 2 * 64 * 16, 0))
 
+    def test_few_instants_are_those_of_many(self):
+        """Fewer than a series of 24 harmonics needs."""
+        few, many = (self.table("orbit", self.machine, "--frequency", 45, "--harmonics", 24, "--points", points) for points in (8, 64))
+        self.same(few, {name: many[name][::8] for name in NAMES}, 1e-12)
+
     def test_verdict_on_two_frequencies(self):
         """At 98.6 Hz with c = 0.4173 the torus has doubled, and integration leaves the one that has not."""
         for cage, frequency, is_doubled in [(0.43, 45.4, False), (0.4173, 98.6, True)]:

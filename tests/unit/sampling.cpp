@@ -19,16 +19,6 @@ TEST_CASE("Series to samples and back is the identity")
   }
 }
 
-TEST_CASE("Samples of a series at few points are those of the series")
-{
-  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(1, 41);
-  series(0, 0) = 2;
-  series(0, 39) = 1;  // cos 20φ
-  const Eigen::MatrixXd values = sample_series(series, 8);
-  for (int k = 0; k < 8; ++k)
-    CHECK(values(k, 0) == Approx(2 + std::cos(20 * 2 * std::numbers::pi * k / 8)));
-}
-
 TEST_CASE("A motion has no harmonics above those that its instants resolve")
 {
   Motion motion{16, 0, {}};
