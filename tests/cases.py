@@ -16,10 +16,6 @@ from tests.unit.shaft import two_disks
 from tests.support.explore import AMPLITUDES, CASES, MACHINE, SETS, Case, changed, some, with_table
 
 
-def machine(name):
-    return CASES / f"{name}.toml"
-
-
 FREE = {"natural_frequency_Hz": 0}
 ROLLERS = {"balls": 9, "radial_clearance_m": 1.025e-5, "cage_speed_ratio": 0.398309426229508}
 
@@ -29,9 +25,9 @@ class Cases(Case):
         """What is printed of a motion with two frequencies, beside the judge's, which
         starts from rest long before: its errors are those that are printed, or below the
         tolerance."""
-        table = self.table("orbit", machine(name), "--frequency", frequency, "--tolerance", tolerance,
+        table = self.table("orbit", CASES / f"{name}.toml", "--frequency", frequency, "--tolerance", tolerance,
                            "--periods", turns, "--points", 64)
-        theirs = model_of(machine(name), frequency).settled(turns, 64)
+        theirs = model_of(CASES / f"{name}.toml", frequency).settled(turns, 64)
         for key, error in zip(("error_largest", "error_rms"), errors(displacements(table), theirs)):
             self.assertLessEqual(table.value(key), tolerance)
             self.assertLessEqual(error, factor * max(table.value(key), 1e-5), (name, key))
@@ -39,14 +35,13 @@ class Cases(Case):
     def test_kinematics_with_a_contact_angle_and_a_turning_outer_ring(self):
         """bearingFaultBands of MathWorks for 8 elements of 2 cm on 12 cm at 15 degrees; a
         cage between two races that roll on the balls, and the balls' spin against it."""
-        text = machine("rolling").read_text(encoding="utf-8")
+        text = (CASES / "rolling.toml").read_text(encoding="utf-8")
         sizes = "ball_diameter_mm = 20\npitch_diameter_mm = 120\n"
 
         def orders(given):
             path = self.file("own.toml", text.replace("cage_speed_ratio = 0.375", given))
-            table = self.table("check", path)
-            return [table.value(key, None)
-                    for key in ("cage_speed_ratio", "bpfo", "bpfi", "bsf")]
+            return self.said(self.table("check", path), "cage_speed_ratio", "bpfo", "bpfi", "bsf")
+
         published = [0.419506, 3.35605, 4.64395, 2.92225]
         np.testing.assert_allclose(orders(sizes + "contact_angle_deg = 15"), published,
                                    rtol=2e-6)
@@ -89,13 +84,13 @@ class Cases(Case):
                             ("f,amplitude\n50,1e-7,3\n", ":2: 3 cells, must be 2"),
                             ("f,g\n50,1e-7\n", "has no column amplitude of numbers")]:
             self.refused(words, *spectrum, self.file("bad.csv", text))
-        ask = ["map", machine("rolling"), "--quantity", "amplitude"]
+        ask = ["map", CASES / "rolling.toml", "--quantity", "amplitude"]
         lists = [self.file("list.tsv", "frequency\trotor.mass_kg\n40\t2\n50\t2.5\n")]
         lists.append(self.file("list.csv", lists[0].read_text().replace("\t", ",")))
         rows = [self.rows(*ask, "--list", path) for path in lists]
         self.assertEqual(rows[0], rows[1])
         self.assertEqual(len(rows[0]), 3)
-        speeds = ["response", machine("rolling"), "--from", 40, "--to", 50, "--count", 2]
+        speeds = ["response", CASES / "rolling.toml", "--from", 40, "--to", 50, "--count", 2]
         kept = self.file("kept.csv", "\n".join(self.lines(*speeds, "--format", "csv")))
         self.refused("CSV has none", *speeds, "--resume", kept)
         ross = self.file("ross.toml", 'ross_version = "2.0.0"\n[parameters]\n')
@@ -106,7 +101,7 @@ class Cases(Case):
     def test_matrices_from_elsewhere(self):
         """The same machine from entries that add up, from Fortran's exponents, from a
         comment after blanks and with the line ends of Windows."""
-        body = machine("rolling").read_text(encoding="utf-8")
+        body = (CASES / "rolling.toml").read_text(encoding="utf-8")
         path = self.file("own.toml", with_table("""[rotor]
 matrices = "m"
 output_dofs = [1, 2]
@@ -131,8 +126,8 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
     def test_lines_of_two_bearings(self):
         """The first bearing first in the header, each line of it with its number, and the
         second one's frequencies by name where dimensions put them."""
-        self.lines("shaft", machine("shaft"), "--to", "m")
-        path = self.file("two.toml", machine("two_bearings").read_text(encoding="utf-8"))
+        self.lines("shaft", CASES / "shaft.toml", "--to", "m")
+        path = self.file("two.toml", (CASES / "two_bearings.toml").read_text(encoding="utf-8"))
         text = self.lines("spectrum", path, "--frequency", 40)
         heads = [line for line in text if line.startswith("#   bearing ")]
         self.assertEqual([line[4:15] for line in heads],
@@ -157,7 +152,7 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
         for frequency, amplitude in amplitudes.items():
             with self.subTest(frequency=frequency):
                 for how in [["--method", "aft", "--tolerance", "1e-4"], []]:
-                    table = self.table("orbit", machine("passing_6306"), "--frequency",
+                    table = self.table("orbit", CASES / "passing_6306.toml", "--frequency",
                                              frequency, *how)
                     if not how:
                         self.assertEqual(table.value("base"), "passing")
@@ -171,8 +166,8 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
     def test_one_word_for_a_kind(self):
         """3.585 balls pass in a turn: two frequencies with the unbalance, one without
         it."""
-        balanced = changed(machine("motor").read_text(encoding="utf-8"), unbalance_kg_m=0)
-        for name, regime, period in [(machine("motor"), "quasi-periodic", -1),
+        balanced = changed((CASES / "motor.toml").read_text(encoding="utf-8"), unbalance_kg_m=0)
+        for name, regime, period in [(CASES / "motor.toml", "quasi-periodic", -1),
                                      (self.file("balanced.toml", balanced), "periodic", 1)]:
             for method in ("auto", "aft", "rk4", "rk8"):
                 with self.subTest(name=name, method=method):
@@ -185,7 +180,7 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
 
     def test_rest_is_one_motion(self):
         still = self.file("still.toml", changed(unbalance_kg_m=0, acceleration_m_per_s2=0))
-        for name, speeds in [(machine("jeffcott_at_rest"), (10, 30, 50)), (still, (45,))]:
+        for name, speeds in [(CASES / "jeffcott_at_rest.toml", (10, 30, 50)), (still, (45,))]:
             for speed in speeds:
                 with self.subTest(name=name, speed=speed):
                     table = self.table("orbit", name, "--frequency", speed)
@@ -193,7 +188,7 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
                                      ("rest", "stable"))
                     self.assertEqual(max(abs(table[of]).max() for of in ("x_r", "y_r")),
                                      0)
-        table = self.table("attractors", machine("jeffcott_at_rest"), "--from", 10, "--to", 50,
+        table = self.table("attractors", CASES / "jeffcott_at_rest.toml", "--from", 10, "--to", 50,
                               "--count", 3)
         self.assertEqual(list(table["f"]), [10, 30, 50])
         self.assertEqual(abs(table["amp_x_r"]).max(), 0)
@@ -207,7 +202,7 @@ unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]""", body).replace("[bearing]
         3,000 Hz."""
         for frequency, words in some([(300, {"stable"}), (3000, {"stable", "undecided"})], 2):
             with self.subTest(frequency=frequency):
-                table = self.table("orbit", machine("soft_mounting"), "--frequency", frequency, "--quiet")
+                table = self.table("orbit", CASES / "soft_mounting.toml", "--frequency", frequency, "--quiet")
                 self.assertIn(table.value("stability"), words)
                 self.assertNotEqual(table.value("regime"), "chaotic")
 
@@ -234,7 +229,7 @@ class Measures(Case):
         self.file("shaft/C.mtx", "\n".join([
             "%%MatrixMarket matrix coordinate real general",
             f"{len(k)} {len(k)} {len(entries)}", *entries, ""]))
-        self.file("own.toml", machine("on_supports").read_text(encoding="utf-8").replace(
+        self.file("own.toml", (CASES / "on_supports.toml").read_text(encoding="utf-8").replace(
             "bearing_dofs", "output_dofs = [17, 18]\nunbalance = [{ dofs = [9, 10], "
             "moment_kg_m = 1e-3, phase_rad = 0.3 }]\nbearing_dofs"))
         m, c, g, k = (mmread(self.folder / f"shaft/{name}.mtx").toarray() for name in "MCGK")
@@ -285,7 +280,7 @@ class Measures(Case):
         same in every command."""
         names = ["amp_x_r", "rms_v_x_r", "amp_1X_x_r", "iso_x_r", "rms_a_x_r"]
         turns, points = 256, 256
-        x = model_of(machine("motor"), 50).settled(turns, points)[:, 2]
+        x = model_of(CASES / "motor.toml", 50).settled(turns, points)[:, 2]
         n, step = len(x), 1 / (50 * points)
         window = 1 - np.cos(2 * np.pi * np.arange(n) / n)
         lines = np.fft.rfft((x - x.mean()) * window)
@@ -296,7 +291,7 @@ class Measures(Case):
                  math.sqrt((power * (2 * np.pi * hertz)**2).sum())]
         for command, how in commands_at(50):
             with self.subTest(command=command):
-                values = self.measured(machine("motor"), command, how, names)
+                values = self.measured(CASES / "motor.toml", command, how, names)
                 self.assertAlmostEqual(values[0] / right[0], 1, delta=1e-3)
                 np.testing.assert_allclose(values, right, rtol=2e-3)
 
@@ -320,7 +315,7 @@ class Measures(Case):
     def test_accelerations_while_a_ball_passes_a_spall(self):
         """A spall that a ball passes in six of the 256 instants printed: Eq. 7 has the
         accelerations at every row, the first and the last included."""
-        text = machine("light_rollers").read_text(encoding="utf-8")
+        text = (CASES / "light_rollers.toml").read_text(encoding="utf-8")
         for old, new in [("ratio = 0.45", "ratio = 0.41"), ("contact_exponent = 1.1111111111111112", ""),
                          ("contact_stiffness_N_per_mn = 4.8e8", "contact_stiffness_N_per_m1p5 = 1.3e10")]:
             self.assertIn(old, text)
@@ -334,13 +329,13 @@ class Measures(Case):
 
     def test_largest_forces_do_not_depend_on_the_instants(self):
         """Of rollers that vibrate 80 times in a base period: as 8,192 instants have them."""
-        name = "light_rollers"
+        rollers = CASES / "light_rollers.toml"
         one = ["--from", 40, "--to", 40, "--columns", "f,amp_F_x,amp_F_y,ball_load"]
-        row = self.table("response", machine(name), *one)
+        row = self.table("response", rollers, *one)
         at = ["--frequency", 40, "--points", 8192]
-        orbit = self.table("orbit", machine(name), *at)
-        load = self.table("contact", machine(name), *at)["Q"].max()
-        mapped = self.table("map", machine(name), "--x", "frequency=40:40:1",
+        orbit = self.table("orbit", rollers, *at)
+        load = self.table("contact", rollers, *at)["Q"].max()
+        mapped = self.table("map", rollers, "--x", "frequency=40:40:1",
                             "--quantity", "ball_load,force")
         found = [row["amp_F_x"][0], row["amp_F_y"][0], row["ball_load"][0],
                  mapped["ball_load"][0], mapped["force"][0]]
