@@ -34,27 +34,18 @@ class Kept:
         return [self.table.rows([k]) for k in self.random.choice(rows, ROWS, replace=False)]
 
 
-def point(row, keys):
-    return [repr(float(row.first(key))) for key in keys]
-
-
 class Rows(unittest.TestCase):
-    def compare(self, new, old, names, most):
-        """Columns of the table computed anew, by the names of the kept one."""
-        for new_name, old_name in names.items():
-            np.testing.assert_allclose(cells_as_numbers(new[new_name]), [float(row.first(old_name)) for row in old], rtol=most,
-                                       atol=1e-12, err_msg=f"{old_name} of {[row.columns for row in old]}")
-
     def at_points(self, name, chosen, keys, options, names):
         """Rows of a kept table by one map: the keys it takes from columns, and {column: (quantity, relative error)}."""
         kept = Kept(name)
         for row in kept.drawn(chosen(kept.table)):
             own = {option: value(row) if callable(value) else value for option, value in options.items()}
-            new = map_at(SETS[int(row.first("set")) if "set" in row.columns else 1], list(keys), [point(row, keys.values())],
+            new = map_at(SETS[int(row.first("set")) if "set" in row.columns else 1], list(keys), [[repr(float(row.first(key))) for key in keys.values()]],
                          quantity=",".join(quantity for quantity, _ in names.values()), **own)
             for column, (quantity, most) in names.items():
                 with self.subTest(name, column=column):
-                    self.compare(new, [row], {quantity: column}, most)
+                    np.testing.assert_allclose(cells_as_numbers(new[quantity]), [float(row.first(column))], rtol=most, atol=1e-12,
+                                               err_msg=f"{row.columns}")
 
     def test_maps(self):
         """Motions from rest that repeat with every turn, lose no contact, and have no other beside them; the peak of a sweep, where
