@@ -16,30 +16,6 @@ motion::Answer from_rest_at(const Parameters& parameters, double frequency)
 
 }  // namespace
 
-TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
-{
-  /** A wrong phase, unbalance or number of base periods would show. */
-  Parameters parameters = set_1();
-  parameters.bearing.clearance = 1;
-  const motion::Answer answer = from_rest_at(parameters, 30);
-  const double omega = hertz(30), r = omega / parameters.rotor.natural_frequency;
-  const double expected = parameters.unbalance / parameters.rotor.mass * r * r /
-                          std::hypot(1 - r * r, 2 * parameters.rotor.damping_ratio * r);
-  CHECK(answer.kind() == Kind::periodic);
-  CHECK(answer.period() == 1);
-  CHECK(answer.stability == "stable");
-  const motion::Question question{.parameters = parameters,
-                                  .request = {.omega = hertz(30)}};
-  const motion::Observation seen =
-      motion::observed_answers({&question, 1}).front().seen.get();
-  CHECK(seen.amplitude[2] == Approx(expected).epsilon(1e-7));
-  CHECK(seen.rms[3] == Approx(expected / std::sqrt(2)).epsilon(1e-5));
-  CHECK(answer.multiplier ==
-        Approx(std::exp(-2 * std::numbers::pi / omega * parameters.rotor.damping_ratio *
-                        parameters.rotor.natural_frequency))
-            .epsilon(1e-5));
-}
-
 /** 25 over the slowest decay rate would be 4 s. */
 TEST_CASE("A motion that closes is seen before t = 0, and is the one of shooting")
 {

@@ -66,6 +66,13 @@ class Spectrum(Case):
                 np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=within)
                 self.assertLess(max(table["x_s"][0], table["y_s"][0]), 1e-9 * amplitude)
                 self.assertAlmostEqual(table.value("mean_y_r") / (-G / w0**2), 1, delta=1e-6)
+        # The last one, as other commands give it.
+        own = self.file("own.toml", text)
+        found = self.table("attractors", own, "--from", 30, "--to", 30, "--count", 1, "--starts", 0)
+        self.assertAlmostEqual(found["amp_x_r"][0] / amplitude, 1, delta=1e-7)
+        orbit = self.table("orbit", own, "--frequency", 30)
+        self.assertEqual(self.said(orbit, "regime", "period", "stability"), ["periodic", 1, "stable"])
+        self.assertAlmostEqual(orbit.value("multiplier") / math.exp(-xi * w0 / 30), 1, delta=1e-5)
         # An undamped stator at its own resonance divides nothing by zero.
         stator = VALUES["stator"]
         undamped = text.replace(f"damping_ratio = {stator['damping_ratio']}", "damping_ratio = 0")
