@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from scipy.special import ellipe
 
-from tests.truth.independent import ellipse
+from tests.truth.independent import CATALOGUE, ellipse
 from tests.support.explore import FULL, MACHINE, Case, Table, with_table
 
-CATALOGUE = tomllib.loads(Path("data/bearings/deep_groove.toml").read_text(encoding="utf-8"))
 C3 = 'designation = "6205"\ninternal_clearance = "C3"'
 BY_HAND = """balls = 9
 ball_diameter_m = 0.00794
