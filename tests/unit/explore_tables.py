@@ -9,15 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.truth.independent import displacements, errors
 from tests.support.explore import AMPLITUDES, FULL, MACHINE, NAMES, SETS, TO_1E_3, Case, Table, changed, some
 
 KEPT = Path("data/reference/attractors.tsv").resolve()
 WHOLE = ["--from", "1", "--to", "60"]
-
-
-def difference(a, b):
-    """Largest difference over the four displacements, over the largest displacement."""
-    return max(abs(a[n] - b[n]).max() for n in NAMES) / max(abs(b[n]).max() for n in NAMES)
 
 
 def distances(section, states, row):
@@ -263,7 +259,7 @@ class Shooting(Case):
             for how, most in ((["--method", "shooting"], 1e-7), (["--tolerance", 1e-4], 1e-4)):
                 with self.subTest(frequency, how=how):
                     closed = self.orbit(frequency, *how)
-                    self.assertLess(difference(closed, settled), most)
+                    self.assertLess(errors(displacements(closed), displacements(settled))[0], most)
                     said = self.said(closed, "method", "stability", "regime", "base")
                     self.assertEqual(said, ["shooting", "stable", "periodic", "turn"])
 
@@ -272,7 +268,7 @@ class Shooting(Case):
             with self.subTest(turns):
                 closed = self.orbit(20, "--method", "shooting", *turns)
                 series = self.orbit(20, "--harmonics", 96, *turns)
-                self.assertLess(difference(closed, series), 1e-3)
+                self.assertLess(errors(displacements(closed), displacements(series))[0], 1e-3)
                 keys = ("stability", "multiplier", "multiplier_uncertainty")
                 (word, number, error), (other_word, other, other_error) = (self.said(table, *keys) for table in (closed, series))
                 self.assertEqual(word, other_word)
@@ -461,4 +457,4 @@ class Rounding(Case):
                 self.assertEqual([other is None for other in others], [first is None] * len(others))
                 for other in others:
                     if first is not None:
-                        self.assertLess(difference(other, first), 1e-6)
+                        self.assertLess(errors(displacements(other), displacements(first))[0], 1e-6)

@@ -1,5 +1,5 @@
-/** Motions with two frequencies: against the same machine as one with one frequency, and the
-    rule of the images. */
+/** Motions with two frequencies: against the same machine as one with one frequency, and
+    the rule of the images. */
 #include "motion/quasi_periodic.hpp"
 #include "balance/torus_line.hpp"
 #include "support/cases.hpp"
