@@ -8,6 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 from tests.support.explore import EXPLORE, SANITIZED, Table
 
 PAGE = Path("paper/deviations.md")
@@ -94,6 +96,24 @@ class Page(unittest.TestCase):
         self.assertEqual(sorted(entries()), sorted({line[:4] for line in table.splitlines()
                                                     if line.startswith("D-")}))
 
+
+    def test_static_contact_and_free_modes(self):
+        """The force balances the weights on both suspensions, and is that of the balls; their stiffness joins the bodies, whose
+        slowest decay, or growth with the printed sign, is an eigenvalue of two masses."""
+        table = Table.of(evidence())
+        value, g, m = dict(zip(table["key"], table["value"])), 9.81, np.array([20, 40])
+        force, u, k = value["D-08.force"], value["D-08.penetration_hertz"] + 2e-5, m * np.array([500, 150])**2
+        self.assertAlmostEqual(((m[1] * g - force) / k[1] - (m[0] * g + force) / k[0]) / u, 1, delta=1e-10)
+        along = np.cos(2 * np.pi * np.arange(16) / 16)
+        pressed = np.maximum(0, u * along - 2e-5)
+        self.assertAlmostEqual(1e11 * pressed**1.5 @ along / force, 1, delta=1e-9)
+        stiffness = 1.5e11 * np.sqrt(pressed) @ along**2
+        self.assertAlmostEqual(value["D-01.stiffness_ours"] / stiffness, 1, delta=1e-9)
+        for sign, name in ((1, "ours"), (-1, "printed")):
+            joined = np.diag(k) + sign * stiffness * np.array([[1, -1], [-1, 1]])
+            damping = np.diag([2 * 0.05 * 500, 2 * 0.02 * 150])
+            rates = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)], [-joined / m[:, None], -damping]])).real
+            self.assertAlmostEqual(value[f"D-01.growth_{name}"] / rates.max(), 1, delta=1e-7)
 
     def test_values(self):
         """The printed sign is a negative stiffness that grows, without damping and suspension by l^2 = -k (1/m_s + 1/m_r), and has
