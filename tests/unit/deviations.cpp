@@ -1,4 +1,4 @@
-/** The slope of the printed equations; what they do is judged in tests/paper/deviations.py. */
+/** The plain equations; what the printed ones do is judged in tests/paper/deviations.py. */
 #include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "support/cases.hpp"
