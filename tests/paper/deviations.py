@@ -114,6 +114,7 @@ class Page(unittest.TestCase):
             damping = np.diag([2 * 0.05 * 500, 2 * 0.02 * 150])
             rates = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)], [-joined / m[:, None], -damping]])).real
             self.assertAlmostEqual(value[f"D-01.growth_{name}"] / rates.max(), 1, delta=1e-7)
+        self.assertAlmostEqual(value["D-16.decay_apart"], 0.02 * 150, delta=1e-8)
 
     def test_values(self):
         """The printed sign is a negative stiffness that grows, without damping and suspension by l^2 = -k (1/m_s + 1/m_r), and has
