@@ -123,8 +123,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
 
 LargeBodies matrices_of(const Parameters& parameters)
 {
-  if (const auto* large = dynamic_cast<const MatrixMachine*>(parameters.bodies.get()))
-    return large->bodies();
+  if (const LargeBodies* own = parameters.bodies->matrices()) return *own;
   Body stator = parameters.stator;
   if (stator.rigid) stator.mass = 1;  // which nothing moves
   const double g = parameters.gravity;

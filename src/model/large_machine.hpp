@@ -96,8 +96,6 @@ class MatrixMachine : public Machine {
 public:
   explicit MatrixMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}
 
-  const LargeBodies& bodies() const { return bodies_; }
-
   State at_rest(const Parameters& parameters, Direction cage) const override;
   State static_start(const Parameters& parameters) const override;
   Eigen::VectorXd state_scales(const Parameters& parameters) const override;
@@ -120,11 +118,7 @@ public:
     return bodies_.outputs;
   }
   std::array<int, 4> places(std::size_t k) const override { return bodies_.places[k]; }
-  SparseMatrix nodes() const override { return bodies_.nodes; }
-  std::vector<std::pair<int, int>> bearing_nodes() const override
-  {
-    return bodies_.bearing_nodes;
-  }
+  const LargeBodies* matrices() const override { return &bodies_; }
 
 protected:
   LargeBodies bodies_;
