@@ -145,18 +145,9 @@ struct Samples {
   Eigen::MatrixXd& force;
   Eigen::MatrixXd* stiffness;
 
-  template <class Number>
-  IN_PLACE void evaluate() const
-  {
-    if (stiffness)
-      evaluate_groups<Number, true>();
-    else
-      evaluate_groups<Number, false>();
-  }
-
   /** The last group overlaps the one before where N is no multiple of the lanes. */
   template <class Number, bool with_stiffness>
-  IN_PLACE void evaluate_groups() const
+  IN_PLACE void evaluate() const
   {
     constexpr Eigen::Index instants = lanes_in<Number>;
     const ContactLaw<Number> laws{
@@ -186,7 +177,11 @@ void evaluate(const Samples& samples)
 {
   in_registers(
       registers, [&]() __attribute__((always_inline)) {
-        samples.evaluate<Lanes<static_cast<int>(registers)>>();
+        using Number = Lanes<static_cast<int>(registers)>;
+        if (samples.stiffness)
+          samples.evaluate<Number, true>();
+        else
+          samples.evaluate<Number, false>();
       });
 }
 
@@ -203,7 +198,7 @@ void evaluate(const Samples& samples)
 }  // namespace
 
 SampledBearing::SampledBearing(const Bearing& bearing, int samples)
-    : samples_(samples), cage_(std::max(samples, most_instants), 2), bearing_(bearing)
+    : cage_(std::max(samples, most_instants), 2), bearing_(bearing)
 {
   for (Eigen::Index k = 0; k < cage_.rows(); ++k) {
     const Direction cage = Direction::of(
@@ -218,10 +213,10 @@ void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force
 {
   if (u.rows() < cage_.rows()) {
     Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(cage_.rows(), 2);
-    filled.topRows(samples_) = u;
+    filled.topRows(u.rows()) = u;
     (*this)(filled, force, stiffness);
-    force.conservativeResize(samples_, 2);
-    if (stiffness) stiffness->conservativeResize(samples_, 4);
+    force.conservativeResize(u.rows(), 2);
+    if (stiffness) stiffness->conservativeResize(u.rows(), 4);
     return;
   }
   force.resize(cage_.rows(), 2);

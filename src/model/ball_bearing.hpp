@@ -262,7 +262,6 @@ public:
                   Eigen::MatrixXd* stiffness) const;
 
 private:
-  int samples_;
   Eigen::MatrixX2d cage_;  ///< cosines and sines; at least of one group
   BallBearing bearing_;
 };
