@@ -82,10 +82,8 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
         const double cage =
             joint.cage_phase + angular(1) * k / std::max(joint.balls, 1) / angles;
         const auto [f, s] = bearing.reaction(Direction::of(cage), {u[at], u[at + 1]});
-        Eigen::Matrix2d one;
-        one << s.xx, s.xy, s.yx, s.yy;
         force.segment<2>(at) += Eigen::Vector2d(f.x, f.y) / angles;
-        slope.block<2, 2>(at, at) += one / angles;
+        slope.block<2, 2>(at, at) += s.matrix() / angles;
       }
       at += 2;
     }

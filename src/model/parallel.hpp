@@ -32,6 +32,8 @@ namespace rotor_stator {
 /** ∂F/∂u [N/m] or ∂F/∂u̇ [N s/m]; of balls without damping symmetric. */
 struct Slopes2 {
   double xx, xy, yx, yy;
+
+  Eigen::Matrix2d matrix() const { return Eigen::Matrix2d{{xx, xy}, {yx, yy}}; }
 };
 
 /** Force on the stator [N] and its derivative. */

@@ -146,10 +146,9 @@ GaussStepper::Seen GaussStepper::reaction(const double* phases, const Seen& seen
           : cages_[b].balls > 0 ? forces_[b].angles(phases[stage])
                                 : Angles{{1, 0}, {1, 0}};
       const BearingReaction pressed = forces_[b].reaction(at, u, rate);
-      const auto &s = pressed.stiffness, &c = pressed.damping;
       force.segment<2>(k) << pressed.force.x, pressed.force.y;
-      slopes.block<2, 2>(k, k) << s.xx, s.xy, s.yx, s.yy;
-      if (is_damped_) slopes.block<2, 2>(k, both + k) << c.xx, c.xy, c.yx, c.yy;
+      slopes.block<2, 2>(k, k) = pressed.stiffness.matrix();
+      if (is_damped_) slopes.block<2, 2>(k, both + k) = pressed.damping.matrix();
     }
   evaluations_ += 2;
   return force;
