@@ -87,8 +87,7 @@ LargeBodies matrices_of(const Parameters& parameters);
 /** Where the joints carry the constant loads: the derivative of their mean forces over
     the cage's angles, 2b × 2b [N/m]; what is beside the balls at a speed [rad/s]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeBodies& machine,
-                                       double rotor_speed = 0);
+                                       const LargeBodies& machine, double rotor_speed);
 
 /** A machine whose harmonics are those of its matrices; in time Eq. 7: two masses with
     elements to the ground, for which the two unknowns of the bearing are not enough. */
