@@ -10,10 +10,9 @@ namespace rotor_stator {
 
 BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
     : bearing_(bearing), is_elastic_hertz_(bearing.is_elastic_hertz()), turns_(turns),
-      omega_(omega), rotor_speed_(turns * omega),
-      cage_speed_(bearing.cage_speed_ratio * omega),
+      omega_(omega), cage_speed_(bearing.cage_speed_ratio * omega),
       place_(Direction::of(bearing.defect.place)),
-      parallel_(bearing.parallel, bearing.parallel.speed_ratio * rotor_speed_)
+      parallel_(bearing.parallel, bearing.parallel.speed_ratio * (turns * omega))
 {
   for (int j = 0; j < bearing.balls; ++j) {
     const Direction ball = Direction::of(2 * std::numbers::pi * j / bearing.balls);
@@ -42,7 +41,7 @@ BallBearing::Loss BallBearing::loss(std::size_t ball, Direction direction,
     const bool turns = spall.surface == Defect::Surface::inner_race;
     met = turned(direction, opposite(place_));
     if (turns) met = turned(met, opposite(at.rotor));
-    speed = cage_speed_ - (turns ? rotor_speed_ : 0);
+    speed = cage_speed_ - (turns ? turns_ * omega_ : 0);
   } else if (ball + 1 != static_cast<std::size_t>(spall.ball)) {
     return {0, 0};
   } else if (met.cos < 0) {

@@ -53,19 +53,20 @@ GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& paramet
                            OperationBudget budget)
     : cages_(joints_of(parameters)), omega_(omega),
       turns_(parameters.turns * parameters.speed_ratio),
-      speed_(rotor_speed(parameters, omega)), length_(scales(parameters).length),
+      length_(scales(parameters).length),
       interval_(2 * std::numbers::pi / omega / intervals),
       tolerance_(std::max(tolerance, 2e-14)), budget_(std::move(budget))
 {
+  const double speed = rotor_speed(parameters, omega);
   const double quarter = 0.5 * std::numbers::pi / contact_frequency(parameters);
   first_ = now_ =
       std::clamp(static_cast<int>(std::ceil(std::log2(interval_ / quarter))), 0, 40);
   mass_ = machine.mass.sparseView();
-  damping_ = (machine.damping + speed_ * machine.gyroscopic).sparseView();
+  damping_ = (machine.damping + speed * machine.gyroscopic).sparseView();
   stiffness_ = machine.stiffness.sparseView();
   joints_ = machine.joints.sparseView();
   rest_ = machine.load;
-  unbalance_ = speed_ * speed_ * machine.unbalance;
+  unbalance_ = speed * speed * machine.unbalance;
   double balls = 0;
   bool is_smooth = true;
   for (const Bearing& joint : cages_) {
