@@ -13,8 +13,6 @@ RotorStator::RotorStator(const Parameters& parameters, double omega)
 {
   const Body &s = parameters.stator, &r = parameters.rotor;
   const double speed = parameters.turns * omega;
-  const Vec2 rest_s = s.static_acceleration(parameters.gravity);
-  const Vec2 rest_r = r.static_acceleration(parameters.gravity);
   equation_ = {.k_s = s.stiffness(),
                .c_s = s.damping(),
                .per_m_s = 1 / s.mass,
@@ -22,10 +20,8 @@ RotorStator::RotorStator(const Parameters& parameters, double omega)
                .c_r = r.damping(),
                .per_m_r = 1 / r.mass,
                .unbalance = parameters.unbalance * speed * speed,
-               .rest_s_x = rest_s.x,
-               .rest_s_y = rest_s.y,
-               .rest_r_x = rest_r.x,
-               .rest_r_y = rest_r.y};
+               .rest = {s.static_acceleration(parameters.gravity),
+                        r.static_acceleration(parameters.gravity)}};
   for (std::size_t k = 0; k < parameters.grounds.size(); ++k) {
     const ParallelElements& elements = parameters.grounds[k].parallel;
     const std::array<int, 4> places =

@@ -261,7 +261,7 @@ Rk8::Step<rows> Rk8::first_step(const State& state) const
   step.k = quad(e.k_s, e.k_r);
   step.c = quad(e.c_s, e.c_r);
   step.per_m = quad(e.per_m_s, e.per_m_r);
-  step.rest = Quad{e.rest_s_x, e.rest_s_y, e.rest_r_x, e.rest_r_y};
+  step.rest = std::bit_cast<Quad>(e.rest);
   step.unbalance = e.unbalance;
   step.rotor = &rotor_;
   step.cage = &cage_;
