@@ -266,13 +266,11 @@ Rk8::Step<rows> Rk8::first_step(const State& state) const
   step.rotor = &rotor_;
   step.cage = &cage_;
   step.spin = &spin_;
-  const Displacements q = displacements(state.position),
-                      v = displacements(state.velocity);
+  step.q[0] = std::bit_cast<Quad>(state.position);
+  step.v[0] = std::bit_cast<Quad>(state.velocity);
   for (int i = 0; i < 4; ++i) {
     step.per_size_q[i] = per_size_[i];
     step.per_size_v[i] = per_size_[4 + i];
-    step.q[0][i] = q[i];
-    step.v[0][i] = v[i];
   }
   return step;
 }
