@@ -36,12 +36,11 @@ public:
   Disturbances acceleration(const BearingReaction& bearing, const Disturbances& q,
                             const Disturbances& v) const
   {
-    using Eight = Eigen::Matrix<double, 8, 1>;
-    const Eight u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
+    const Vector8 u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
     const Slopes2& s = bearing.stiffness;
-    Eight force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
+    Vector8 force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
     if (is_damped_) {
-      const Eight w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
+      const Vector8 w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
       const Slopes2& d = bearing.damping;
       force[0] += d.xx * w_x + d.xy * w_y;
       force[1] += d.yx * w_x + d.yy * w_y;
