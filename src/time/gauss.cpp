@@ -355,13 +355,12 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
   const int intervals = settings.intervals_per_period;
   GaussStepper state(bodies_, parameters, omega, intervals, settings.tolerance,
                      settings.budget);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(interval, map.end);
+  State end = start;
+  state.advance(interval, end);
   GaussStepper varied(bodies_, parameters, omega, intervals, coarser * settings.tolerance,
                       settings.budget);
-  map.derivative = varied.derivative(interval, start);
-  map.evaluations = state.evaluations() + varied.evaluations();
-  return map;
+  const Eigen::MatrixXd derivative = varied.derivative(interval, start);
+  return {end, derivative, state.evaluations() + varied.evaluations()};
 }
 
 }  // namespace rotor_stator
