@@ -301,7 +301,7 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
   return stiffness;
 }
 
-Defect read_defect(StrictToml& table, const Bearing& bearing)
+Defect read_defect(StrictToml table, const Bearing& bearing)
 {
   using enum Defect::Surface;
   Defect defect;
@@ -349,7 +349,7 @@ KinematicOrders kinematic_orders(const Bearing& bearing)
           .inner = bearing.balls * (1 - c)};
 }
 
-Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
+Bearing read_bearing(StrictToml table, std::vector<std::string>& derived)
 {
   for (const Ways& ways : {cage_ways, stiffness_ways, clearance_ways})
     table.may_hold(ways);
@@ -377,14 +377,8 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   bearing.clearance =
       read_clearance(table, source, name.clearance, derived, bearing.doubt);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
-  if (table.has("defect")) {
-    StrictToml defect = table.table("defect");
-    bearing.defect = read_defect(defect, bearing);
-  }
-  if (table.has("parallel")) {
-    StrictToml parallel = table.table("parallel");
-    bearing.parallel = read_parallel(parallel);
-  }
+  if (table.has("defect")) bearing.defect = read_defect(table.table("defect"), bearing);
+  if (table.has("parallel")) bearing.parallel = read_parallel(table.table("parallel"));
   if (!has_count || table.has("ball_diameter_m"))
     derived.insert(derived.begin(),
                    format("%s: D = %.15g m, d_m = %.15g m",

@@ -47,7 +47,7 @@ struct BearingReaction : ElasticReaction {
 };
 
 /** Throws BadInput with file, line and key. */
-ParallelElements read_parallel(StrictToml& table);
+ParallelElements read_parallel(StrictToml table);
 
 /** The `#` lines of what is there, which begin with `name`. */
 void describe_parallel(Table& table, const std::string& name,

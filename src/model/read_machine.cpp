@@ -180,8 +180,7 @@ std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
 void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
 {
   if (!root.has_tables("bearing")) {
-    StrictToml table = root.table("bearing");
-    parameters.bearing = read_bearing(table, parameters.derived);
+    parameters.bearing = read_bearing(root.table("bearing"), parameters.derived);
     all.places = {read_place(nullptr, all)};
     return;
   }
