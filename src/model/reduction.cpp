@@ -66,7 +66,8 @@ Matrix product(const SparseMatrix& a, double sign, const Matrix& x)
   return y;
 }
 
-/** The body in an order of its own, held at its joints. */
+/** The body in an order of its own, held at its joints. Throws BadInput for what neither
+    K nor a bearing holds. */
 struct HeldBody {
   HeldBody(const LinearBody& body, std::span<const int> joints, double k_0) : spring_(k_0)
   {
@@ -88,7 +89,13 @@ struct HeldBody {
     for (int dof : joints) held.emplace_back(dof, dof, 1);
     SparseMatrix joined(m.rows(), m.rows());
     joined.setFromTriplets(held.begin(), held.end());
-    require_held(factors, body.k + spring_ * joined, body.name);
+    const SparseMatrix supported = body.k + spring_ * joined;
+    factors.factorize(supported);
+    const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
+    constexpr double rounding = 1e-12;
+    for (Eigen::Index i = 0; i < pivots.size(); ++i)
+      if (!(pivots[i] > rounding * supported.coeff(order[i], order[i])))
+        throw BadInput(not_held(body.name, order[i]));
     held_ = reordered(joined, place_);
     factors_.isSymmetric(true);
     factors_.setPivotThreshold(1e-3);
@@ -135,18 +142,6 @@ struct HeldBody {
   }
 
 private:
-  /** Throws BadInput for what neither K nor a bearing holds. */
-  void require_held(StaticFactors& factors, const SparseMatrix& held,
-                    const std::string& who) const
-  {
-    factors.factorize(held);
-    const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
-    constexpr double rounding = 1e-12;
-    for (Eigen::Index i = 0; i < pivots.size(); ++i)
-      if (!(pivots[i] > rounding * held.coeff(order[i], order[i])))
-        throw BadInput(not_held(who, order[i]));
-  }
-
   double spring_;
   Permutation place_;  ///< of each degree of freedom
   SparseMatrix held_;
