@@ -182,9 +182,8 @@ double MatrixMachine::quickest_contact(const Parameters& parameters) const
 {
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bodies_.mass);
   double most = 0;
-  for (std::size_t b = 0; b < joints_of(parameters).size(); ++b)
+  for (const auto& at : bodies_.places)
     for (const int axis : {0, 1}) {
-      const auto& at = bodies_.places[b];
       Eigen::VectorXd apart = Eigen::VectorXd::Zero(bodies_.mass.rows());
       if (const int rotor = at[2 + axis]; rotor >= 0) apart[rotor] += 1;
       if (const int stator = at[axis]; stator >= 0 && !parameters.stator.rigid)
