@@ -309,8 +309,7 @@ LargeBodies Assembly::assembled(double spring) const
                       .unbalance = unbalance(order),
                       .spring = spring,
                       .shown = shown,
-                      .places = places,
-                      .outputs = {}};
+                      .places = places};
   for (auto& place : machine.places)
     for (int& dof : place)
       if (dof >= 0) dof = place_of[dof];

@@ -42,7 +42,7 @@ struct LargeBodies {
   /** Of x_s, y_s, x_r, y_r at each joint; -1, -1 and x, y of a body at the ground. */
   std::vector<std::array<int, 4>> places;
   /** Further columns, and their coordinates. */
-  std::vector<std::pair<std::string, int>> outputs;
+  std::vector<std::pair<std::string, int>> outputs = {};
   std::vector<std::string> reductions = {};  ///< lines for headers
   double reduction_error = 0;                ///< of their receptances, relative
   double reduced_to = std::numeric_limits<double>::infinity();  ///< Ω [rad/s], at most
