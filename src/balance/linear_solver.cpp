@@ -165,11 +165,8 @@ Solved BalanceSolver::solve(const Eigen::VectorXd& x, double omega,
   const bool is_solved = report.residual <= goal;
   is_factored_ =
       is_solved && report.iterations <= std::max(many_iterations, 2 * fresh_iterations_);
-  if (is_solved) return Solved::iteratively;
-  if (are_new) {
-    if (low_ >= largest_low(balance_)) return Solved::poorly;
-    least_low_ = 2 * low_;
-  }
+  if (is_solved || (are_new && low_ >= largest_low(balance_))) return Solved::iteratively;
+  if (are_new) least_low_ = 2 * low_;
   return solve(x, omega, b, goal, s);
 }
 
