@@ -7,27 +7,17 @@
 
 namespace rotor_stator::motion {
 
-static double share_of_any(const std::vector<BearingInstants>& bearings,
-                           const Motion& motion)
+double contact_share(const Parameters& parameters, const Motion& motion,
+                     std::optional<std::size_t> bearing)
 {
+  std::vector<BearingInstants> bearings;
+  for (std::size_t b = bearing.value_or(0);
+       b <= bearing.value_or(parameters.further.size()); ++b)
+    bearings.emplace_back(parameters, motion, b);
   std::size_t loaded = 0;
   for (std::size_t k = 0; k < motion.size(); ++k)
     loaded += std::ranges::any_of(bearings, [k](auto& at) { return at.touches(k); });
   return static_cast<double>(loaded) / static_cast<double>(motion.size());
-}
-
-double contact_share(const Parameters& parameters, const Motion& motion)
-{
-  std::vector<BearingInstants> bearings;
-  for (std::size_t b = 0; b <= parameters.further.size(); ++b)
-    bearings.emplace_back(parameters, motion, b);
-  return share_of_any(bearings, motion);
-}
-
-double contact_share(const Parameters& parameters, const Motion& motion,
-                     std::size_t bearing)
-{
-  return share_of_any({BearingInstants(parameters, motion, bearing)}, motion);
 }
 
 bool touches(const Parameters& parameters, PeriodicMotion solution)

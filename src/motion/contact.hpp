@@ -6,15 +6,16 @@ the rotating contact passes each ball once in 2T (D-11, D-20); for other bearing
 periods are a convention. */
 #pragma once
 
+#include <optional>
+
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
 
 /** Share of the instants with at least one loaded ball, of any bearing; of one of them,
     counted from 0 [-]. */
-double contact_share(const Parameters& parameters, const Motion& motion);
 double contact_share(const Parameters& parameters, const Motion& motion,
-                     std::size_t bearing);
+                     std::optional<std::size_t> bearing = {});
 
 /** Whether any ball is loaded in a solution of harmonic balance. */
 bool touches(const Parameters& parameters, PeriodicMotion solution);
