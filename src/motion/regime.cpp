@@ -137,14 +137,4 @@ std::vector<Regime> regimes_of(const Parameters& parameters,
   return regimes;
 }
 
-RegimeSettings read_regime_settings(SceneFile& scene)
-{
-  StrictToml table = scene.toml().table("regime");
-  return {.step_over_default = table.number("step_over_default", Range::positive),
-          .longest = table.number("longest_s", Range::positive),
-          .window = table.number("window_s", Range::positive),
-          .average = table.number("average_s", Range::positive),
-          .points_per_period = table.integer("points_per_period", 4, 4096)};
-}
-
 }  // namespace rotor_stator::motion
