@@ -120,17 +120,13 @@ void Balance::combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
   });
 }
 
-/** Whether (X, ω) is the point that was evaluated last, bit by bit. */
-bool Balance::at(const Eigen::VectorXd& x, double omega) const
-{
-  return evaluated_ && omega == omega_ &&
-         std::memcmp(x.data(), series_.data(), x.size() * sizeof(double)) == 0;
-}
-
 const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
                                          bool with_stiffness)
 {
-  const bool known = at(x, omega);
+  /** Whether (X, ω) is the point that was evaluated last, bit by bit. */
+  const bool known =
+      evaluated_ && omega == omega_ &&
+      std::memcmp(x.data(), series_.data(), x.size() * sizeof(double)) == 0;
   if (known && (has_stiffness_ || !with_stiffness)) return residual_;
   evaluated_ = has_spectra_ = false;  // should the budget end here
   if (!known) {

@@ -184,7 +184,6 @@ public:
 
 private:
   void refresh_blocks(double omega);
-  bool at(const Eigen::VectorXd& x, double omega) const;
   void need_spectra(const Eigen::VectorXd& x, double omega);
   void combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                const Eigen::Ref<const Eigen::MatrixXd>& series,
