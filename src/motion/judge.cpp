@@ -206,8 +206,8 @@ struct Search {
     const double away = closer.apart(motion, start);
     if (!(away <= near * own_distance + floor)) {
       reason = "the motion of its period found from it is too far away to be its own";
-      refused_distance =
-          away * closer.size / std::max(largest_displacement(judged), 1e-300);
+      const double largest = displacement_samples(judged).cwiseAbs().maxCoeff();
+      refused_distance = away * closer.size / std::max(largest, 1e-300);
       return;
     }
     try {
