@@ -52,11 +52,6 @@ struct LoadedBody {
   std::array<Varying, 2> load;
 };
 
-bool is_loaded(Harmonic h, int turns)
-{
-  return h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(turns), 0};
-}
-
 std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Harmonic h)
 {
   const double order = order_of(h, p.bearing);
@@ -66,7 +61,7 @@ std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Ha
     return {{value, order * slope}, {Varying{constant.x, 0}, Varying{constant.y, 0}}};
   };
   std::array<LoadedBody, 2> bodies{loaded(p.stator), loaded(p.rotor)};
-  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+  if (h == turning(p)) {
     const double moment = p.unbalance * p.turns * p.turns;
     const Varying force{moment * omega * omega, 2 * moment * omega};
     bodies[1].load = {force, force * Varying{{0, -1}, 0}};
@@ -97,7 +92,7 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   put_isotropic(b.slope, block.b_slope);
   block.c.setZero(2);
   block.c_slope.setZero(2);
-  if (!is_loaded(h, parameters.turns)) return;
+  if (h != Harmonic{0, 0} && h != turning(parameters)) return;
   for (int axis = 0; axis < 2; ++axis) {
     const auto &f_s = stator.load, &f_r = rotor.load;
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);

@@ -23,6 +23,12 @@ The equations hold for two frequencies and for periods of several turns too. */
 
 namespace rotor_stator {
 
+/** The harmonic of the rotor's turning, which the unbalance drives. */
+inline Harmonic turning(const Parameters& parameters)
+{
+  return {static_cast<double>(parameters.turns), 0};
+}
+
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each
     joint; N samples; paid for from `budget`. Throws NoSolution when the force has not the
     period of rotation (n ω_cage/ω not whole, D-11): no series in ω can solve it. */

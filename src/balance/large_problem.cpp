@@ -27,7 +27,7 @@ struct HarmonicAlone {
         load(Eigen::VectorXcd::Zero(machine.load.size())), load_slope(load)
   {
     if (h == Harmonic{0, 0}) load = machine.load;
-    if (h != Harmonic{static_cast<double>(p.turns), 0}) return;
+    if (h != turning(p)) return;
     load = speed * speed * machine.unbalance;
     load_slope = 2 * speed * rotor_speed(p, 1) * machine.unbalance;
   }
@@ -94,7 +94,7 @@ Answers answers_of(const LargeBodies& machine, const Parameters& p, double omega
                   Eigen::VectorXcd::Zero(machine.shown), spring};
   const auto unit = value.tail(machine.shown), unit_slope = slope.tail(machine.shown);
   if (h == Harmonic{0, 0}) answers.driven = size_of_load * unit;
-  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+  if (h == turning(p)) {
     answers.driven = size_of_load * speed * speed * unit;
     answers.driven_slope =
         size_of_load * per_omega * speed * (2 * unit + speed * unit_slope);
@@ -175,8 +175,8 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
                                              int samples) const
 {
   const LinearBlock rest = large_block(bodies_, parameters, omega, {0, 0});
-  const LinearBlock turning =
-      large_block(bodies_, parameters, omega, {static_cast<double>(parameters.turns), 0});
+  const LinearBlock whirling =
+      large_block(bodies_, parameters, omega, turning(parameters));
   const auto sampled = [&](const Eigen::VectorXcd& mean, const Eigen::VectorXcd& whirl) {
     Eigen::MatrixXd series(samples, mean.size());
     for (int k = 0; k < samples; ++k)
@@ -202,7 +202,7 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
     }
     return whole.fullPivLu().solve(block.c);
   };
-  Eigen::MatrixXd u = sampled(free(rest, 0), free(turning, speed));
+  Eigen::MatrixXd u = sampled(free(rest, 0), free(whirling, speed));
   bool is_free = u.allFinite();
   for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
     is_free =
@@ -210,7 +210,7 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
     k += 2;
   }
   if (is_free) return u;
-  const JointForces rigid = rigid_joint_forces(bodies_, rotor_speed(parameters, omega));
+  const JointForces rigid = rigid_joint_forces(bodies_, speed);
   u = sampled(rigid.rest.cast<Complex>(), rigid.whirl);
   for (Eigen::Index k = 0; k < samples; ++k)
     u.row(k) = quasi_static_contacts(parameters, u.row(k).transpose());
