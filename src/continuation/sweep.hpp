@@ -70,7 +70,7 @@ struct ArcLengthSettings {
   NewtonSettings newton;
   double speed_scale;        ///< ω_ref [rad/s]
   double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
-  double first_step = 0.01, most_step = 0.05;
+  double most_step = 0.05;
   long most_evaluations = 1000000;  ///< of the force: the bound on work
 };
 
