@@ -50,8 +50,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
       motion.size(),
       closes ? motion.size() : std::size_t(drawn_periods * motion.points_per_period));
   const auto loads =
-      motion::contact_evolution(found.machine, motion, long(std::ceil(2 / turns)))
-          .ball_force;
+      motion::ball_forces(found.machine, motion, long(std::ceil(2 / turns)));
   const std::size_t instants = std::min(loads.size(), std::size_t(2 * per_turn));
   const motion::Lines all = lines_of(found);
   const auto add = [](std::initializer_list<double> values) {

@@ -28,24 +28,22 @@ bool touches(const Parameters& parameters, PeriodicMotion solution)
   return contact_share(parameters, motion_of(parameters, solution, points, turns)) > 0;
 }
 
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods, std::size_t bearing)
+std::vector<std::vector<double>> ball_forces(const Parameters& parameters,
+                                             const Motion& motion, long periods,
+                                             std::size_t bearing)
 {
   const BearingInstants at(parameters, motion, bearing);
-  ContactEvolution evolution;
-  for (long k = 0; k < periods * motion.points_per_period; ++k) {
-    evolution.t_over_period.push_back(motion.t_over_period(k));
-    evolution.ball_force.push_back(
-        at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)));
-  }
-  return evolution;
+  std::vector<std::vector<double>> forces;
+  for (long k = 0; k < periods * motion.points_per_period; ++k)
+    forces.push_back(at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)));
+  return forces;
 }
 
 double largest_ball_load(const Parameters& parameters, const Motion& motion,
                          std::size_t bearing)
 {
   const auto periods = std::ssize(motion.positions) / motion.points_per_period;
-  const auto loads = contact_evolution(parameters, motion, periods, bearing).ball_force;
+  const auto loads = ball_forces(parameters, motion, periods, bearing);
   const auto top =
       std::ranges::max_element(loads, {}, [](auto& at) { return std::ranges::max(at); });
   const auto ball = std::ranges::max_element(*top) - top->begin();

@@ -20,16 +20,12 @@ double contact_share(const Parameters& parameters, const Motion& motion,
 /** Whether any ball is loaded in a solution of harmonic balance. */
 bool touches(const Parameters& parameters, PeriodicMotion solution);
 
-/** Ball forces at P instants per period. */
-struct ContactEvolution {
-  std::vector<double> t_over_period;            ///< 0 ≤ t/T < periods
-  std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
-};
-
-/** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
-    one period is repeated. `bearing` counts from 0. */
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods = 2, std::size_t bearing = 0);
+/** Q_j [N] at P instants per period, [instant][ball]. Ball j stands where Eq. 3 puts it,
+    with t counted as the motion counts it. A motion of one period is repeated. `bearing`
+    counts from 0. */
+std::vector<std::vector<double>> ball_forces(const Parameters& parameters,
+                                             const Motion& motion, long periods = 2,
+                                             std::size_t bearing = 0);
 
 /** The largest force on a ball along a motion, where three instants of that ball lie on a
     parabola [N]. */

@@ -61,7 +61,7 @@ static SteadyRun run_of(const Parameters& parameters, double frequency,
 
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods)
 {
-  const auto ball_force = contact_evolution(parameters, two_periods).ball_force;
+  const auto ball_force = ball_forces(parameters, two_periods);
   const auto passages = passages_per_ball(ball_force);
   const auto balls = static_cast<double>(passages.size());
   double loaded = 0, largest = 0;
