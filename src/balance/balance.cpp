@@ -360,15 +360,14 @@ void Balance::diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
   }
 }
 
-int Balance::highest_coupled(const Eigen::VectorXd& x, double omega, double coupling)
+int Balance::highest_coupled(const Eigen::VectorXd& x, double omega)
 {
   residual(x, omega);
-  const int two = 2 * problem_.dofs;
-  const double stiffness =
-      stiffness_samples_.leftCols(two * two / 4).rowwise().norm().maxCoeff();
+  const int d = problem_.dofs, two = 2 * d;
+  const double stiffness = stiffness_samples_.leftCols(d * d).rowwise().norm().maxCoeff();
   for (int h = m_; h > 0; --h) {
     const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
-    if (!(a.partialPivLu().solve(b).norm() * stiffness < coupling)) return h;
+    if (!(a.partialPivLu().solve(b).norm() * stiffness < 1)) return h;
   }
   return 0;
 }

@@ -169,8 +169,8 @@ public:
                        Eigen::MatrixXd& blocks);
 
   /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹
-      B_h‖ times the largest stiffness over the period is at least `coupling` [-]. */
-  int highest_coupled(const Eigen::VectorXd& x, double omega, double coupling);
+      B_h‖ times the largest stiffness over the period is at least 1. */
+  int highest_coupled(const Eigen::VectorXd& x, double omega);
 
   /** Evaluations of the force at all N samples. */
   long evaluations() const { return evaluations_; }
