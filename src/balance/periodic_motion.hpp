@@ -6,6 +6,7 @@ list of harmonics, and how they were found. */
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <memory>
 #include <string>
 #include <vector>
