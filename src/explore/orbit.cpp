@@ -417,9 +417,9 @@ Exploration explore_contact(const MotionRequest& request)
     const motion::Motion& motion = at.found.motion;
     const Bearing one = bearings_of(at.found.machine)[b];
     const auto forces = motion::ball_forces(at.found.machine, motion, 2, b);
-    for (std::size_t k = 0; k < forces.size(); ++k)
-      for (std::size_t j = 0; j < forces[k].size(); ++j) {
-        const double q = forces[k][j], time = motion.t_over_period(k);
+    for (Eigen::Index k = 0; k < forces.rows(); ++k)
+      for (Eigen::Index j = 0; j < forces.cols(); ++j) {
+        const double q = forces(k, j), time = motion.t_over_period(k);
         const double angle = one.cage_angle(motion.phase(k)) / angular(1) +
                              static_cast<double>(j) / one.balls;
         std::vector<Cell> row{time,

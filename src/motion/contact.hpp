@@ -20,12 +20,11 @@ double contact_share(const Parameters& parameters, const Motion& motion,
 /** Whether any ball is loaded in a solution of harmonic balance. */
 bool touches(const Parameters& parameters, PeriodicMotion solution);
 
-/** Q_j [N] at P instants per period, [instant][ball]. Ball j stands where Eq. 3 puts it,
-    with t counted as the motion counts it. A motion of one period is repeated. `bearing`
+/** Q_j [N] at P instants per period, a row each. Ball j stands where Eq. 3 puts it, with
+    t counted as the motion counts it. A motion of one period is repeated. `bearing`
     counts from 0. */
-std::vector<std::vector<double>> ball_forces(const Parameters& parameters,
-                                             const Motion& motion, long periods = 2,
-                                             std::size_t bearing = 0);
+Eigen::MatrixXd ball_forces(const Parameters& parameters, const Motion& motion,
+                            long periods = 2, std::size_t bearing = 0);
 
 /** The largest force on a ball along a motion, where three instants of that ball lie on a
     parabola [N]. */
@@ -33,6 +32,6 @@ double largest_ball_load(const Parameters& parameters, const Motion& motion,
                          std::size_t bearing = 0);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */
-std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);
+std::vector<int> passages_per_ball(const Eigen::MatrixXd& forces);
 
 }  // namespace rotor_stator::motion
