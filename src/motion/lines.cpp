@@ -123,12 +123,6 @@ struct Record {
     return squares.cwiseSqrt();
   }
 
-  double rest() const
-  {
-    const double all = (samples.rowwise() - samples.colwise().mean()).norm();
-    return all > 0 ? left.norm() / all : 0;
-  }
-
   /** Σ_k e^{2πi bk/N} */
   std::complex<double> sum_of_waves(double bin) const
   {
@@ -226,7 +220,9 @@ Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& moti
   }
   record.fit();
   Lines all = lines_of(record.series, orders);
-  all.rest = record.rest();
+  const Eigen::MatrixXd& q = record.samples;
+  const double vibration = (q.rowwise() - q.colwise().mean()).norm();
+  all.rest = vibration > 0 ? record.left.norm() / vibration : 0;
   return all;
 }
 
