@@ -76,7 +76,7 @@ struct Problem {
       one costs as much. */
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
-  /** The force at all N samples; `Machine::put_equations` sets that of the bearing, of an
+  /** The force at all N samples; `bearing_problem` sets that of the bearing, of an
       undamped one to a `SampledBearing`. `q`: N × d; `force`: N × d; `stiffness`, unless
       it is null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,

@@ -1,5 +1,6 @@
 #include "balance/bearing_problem.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -101,12 +102,37 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   }
 }
 
-}  // namespace
-
-void put_moving_force(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem)
+/** Sets the force of joints that are Eq. 5 alone. */
+void put_elastic_force(const std::vector<Bearing>& joints, const TorusLine& line,
+                       Problem& problem)
 {
-  const std::vector<Bearing> joints = joints_of(parameters);
+  std::vector<SampledBearing> bearings;
+  for (const Bearing& bearing : joints)
+    bearings.emplace_back(bearing_along(line, bearing), line.samples);
+  if (bearings.size() == 1) {
+    problem.force = bearings.front();
+    return;
+  }
+  problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                             Eigen::MatrixXd* stiffness) {
+    const Eigen::Index d = u.cols();
+    force.resize(u.rows(), d);
+    if (stiffness) stiffness->setZero(u.rows(), d * d);
+    Eigen::MatrixXd own_force, own_stiffness;
+    for (Eigen::Index k = 0; const SampledBearing& bearing : bearings) {
+      bearing(u.middleCols<2>(k), own_force, stiffness ? &own_stiffness : nullptr);
+      force.middleCols<2>(k) = own_force;
+      for (Eigen::Index j = 0; stiffness && j < 4; ++j)
+        stiffness->col(k + j % 2 + d * (k + j / 2)) = own_stiffness.col(j);
+      k += 2;
+    }
+  };
+}
+
+/** Sets the force of joints of which one is not Eq. 5 alone. */
+void put_moving_force(const Parameters& parameters, const std::vector<Bearing>& joints,
+                      const TorusLine& line, Problem& problem)
+{
   std::vector<std::vector<Angles>> angles;  // of each joint
   for (const Bearing& joint : joints) {
     const BallBearing there(bearing_along(line, joint), 0, parameters.turns * line.turns);
@@ -147,6 +173,8 @@ void put_moving_force(const Parameters& parameters, const TorusLine& line,
   };
 }
 
+}  // namespace
+
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget)
 {
@@ -160,18 +188,12 @@ Problem bearing_problem(const Parameters& parameters, int samples,
   return bearing_problem(parameters, TorusLine{z, samples}, budget);
 }
 
-void Machine::put_equations(const Parameters& parameters, const TorusLine& line,
-                            Problem& problem) const
+void Machine::put_equations(const Parameters& parameters, Problem& problem) const
 {
   problem.linear = [parameters, k = scales(parameters).stiffness](
                        double omega, Harmonic h, LinearBlock& block) {
     condense(parameters, k, omega, h, block);
   };
-  if (parameters.bearing.is_elastic_hertz()) {
-    problem.force = SampledBearing(bearing_along(line, parameters.bearing), line.samples);
-  } else {
-    put_moving_force(parameters, line, problem);
-  }
 }
 
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
@@ -187,7 +209,12 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
-  parameters.bodies->put_equations(parameters, line, problem);
+  parameters.bodies->put_equations(parameters, problem);
+  const std::vector<Bearing> joints = joints_of(parameters);
+  if (std::ranges::all_of(joints, &Bearing::is_elastic_hertz))
+    put_elastic_force(joints, line, problem);
+  else
+    put_moving_force(parameters, joints, line, problem);
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));

@@ -39,10 +39,6 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget = {});
 
-/** Sets the force of joints of which one is not Eq. 5 alone. */
-void put_moving_force(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem);
-
 /** A start for Newton, 2 × (2m+1) coefficients as a vector: the motion without contact
    where it stays inside the clearance; otherwise at each instant the force that would
    hold both bodies together, answered quasi-statically by one ball. */

@@ -1,7 +1,6 @@
 #include "balance/large_problem.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -133,8 +132,7 @@ void require_one_passage(const Parameters& parameters)
 
 }  // namespace
 
-void MatrixMachine::put_equations(const Parameters& parameters, const TorusLine& line,
-                                  Problem& problem) const
+void MatrixMachine::put_equations(const Parameters& parameters, Problem& problem) const
 {
   require_one_passage(parameters);
   problem.dofs = static_cast<int>(bodies_.joints.cols());
@@ -142,26 +140,6 @@ void MatrixMachine::put_equations(const Parameters& parameters, const TorusLine&
     block = large_block(bodies_, parameters, omega, h);
   };
   problem.operations *= static_cast<double>(bodies_.places.size());
-  const std::vector<Bearing> joints = joints_of(parameters);
-  if (!std::ranges::all_of(joints, &Bearing::is_elastic_hertz))
-    return put_moving_force(parameters, line, problem);
-  std::vector<SampledBearing> bearings;
-  for (const Bearing& bearing : joints)
-    bearings.emplace_back(bearing_along(line, bearing), line.samples);
-  problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                             Eigen::MatrixXd* stiffness) {
-    const Eigen::Index d = u.cols();
-    force.resize(u.rows(), d);
-    if (stiffness) stiffness->setZero(u.rows(), d * d);
-    Eigen::MatrixXd own_force, own_stiffness;
-    for (Eigen::Index k = 0; const SampledBearing& bearing : bearings) {
-      bearing(u.middleCols<2>(k), own_force, stiffness ? &own_stiffness : nullptr);
-      force.middleCols<2>(k) = own_force;
-      for (Eigen::Index j = 0; stiffness && j < 4; ++j)
-        stiffness->col(k + j % 2 + d * (k + j / 2)) = own_stiffness.col(j);
-      k += 2;
-    }
-  };
 }
 
 void MatrixMachine::prepare(const Parameters& parameters, double omega,
