@@ -269,14 +269,9 @@ Eigen::MatrixXd Machine::all_series(const Parameters&, const PeriodicMotion& mot
 Eigen::MatrixXd Machine::shown_series(const Parameters& parameters,
                                       const PeriodicMotion& motion) const
 {
-  const auto columns = motion.harmonics.coefficients();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
-  Eigen::MatrixXd bodies(4, columns);
-  for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const auto [stator, rotor] =
-        stator_and_rotor(parameters, motion.omega, motion.harmonics.list()[h]);
+  return series_of(motion, 4, [&](Harmonic h, auto& force, auto& relative) {
+    const auto [stator, rotor] = stator_and_rotor(parameters, motion.omega, h);
     const Complex z_s = stator.z.value, z_r = rotor.z.value;
-    const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
     SmallVector body(4);
     for (int axis = 0; axis < 2; ++axis) {
       /** The stiffer of the two bodies gives its displacement and u the other's: the
@@ -286,9 +281,8 @@ Eigen::MatrixXd Machine::shown_series(const Parameters& parameters,
                        : (rotor.load[axis].value - force[axis]) / z_r - relative[axis];
       body[2 + axis] = body[axis] + relative[axis];
     }
-    put_amplitude(bodies, h, body);
-  }
-  return bodies;
+    return body;
+  });
 }
 
 }  // namespace rotor_stator

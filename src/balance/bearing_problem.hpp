@@ -50,4 +50,20 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
     `motion`. */
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion);
 
+/** The series of q, so many rows, from the amplitudes q_h = `answer`(h, F_h, u_h) at the
+    harmonics of a motion. */
+template <class Answer>
+Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index rows, Answer answer)
+{
+  const auto columns = motion.harmonics.coefficients();
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), motion.force.rows(),
+                                            columns);
+  Eigen::MatrixXd series(rows, columns);
+  for (int h = 0; h <= motion.harmonics.count(); ++h) {
+    const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
+    put_amplitude(series, h, answer(motion.harmonics.list()[h], force, relative));
+  }
+  return series;
+}
+
 }  // namespace rotor_stator

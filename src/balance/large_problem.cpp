@@ -195,43 +195,25 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
   return u;
 }
 
-/** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces
-    with the spring k taken off. */
-template <class Answer>
-static Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
-                                 Eigen::Index rows, Answer answer)
-{
-  const auto columns = motion.harmonics.coefficients();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), joints, columns);
-  Eigen::MatrixXd series(rows, columns);
-  for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const auto push = [&](Complex spring) -> Eigen::VectorXcd {
-      return amplitude(motion.force, h) - spring * amplitude(u, h);
-    };
-    put_amplitude(series, h, answer(motion.harmonics.list()[h], push));
-  }
-  return series;
-}
-
 Eigen::MatrixXd MatrixMachine::shown_series(const Parameters& parameters,
                                             const PeriodicMotion& motion) const
 {
-  return series_of(motion, bodies_.joints.cols(), bodies_.shown,
-                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const Answers at = answers_of(bodies_, parameters, motion.omega, h);
-                     return at.driven - at.to_forces * push(at.spring);
-                   });
+  return series_of(motion, bodies_.shown, [&](Harmonic h, auto& force, auto& u) {
+    const Answers at = answers_of(bodies_, parameters, motion.omega, h);
+    const Eigen::VectorXcd push = force - at.spring * u;
+    return Eigen::VectorXcd(at.driven - at.to_forces * push);
+  });
 }
 
 Eigen::MatrixXd MatrixMachine::all_series(const Parameters& parameters,
                                           const PeriodicMotion& motion) const
 {
   const Eigen::MatrixXd& d = bodies_.joints;
-  return series_of(motion, d.cols(), d.rows(),
-                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const HarmonicAlone at(bodies_, parameters, motion.omega, h);
-                     return at.factors.solve(at.load - d * push(at.spring));
-                   });
+  return series_of(motion, d.rows(), [&](Harmonic h, auto& force, auto& u) {
+    const HarmonicAlone at(bodies_, parameters, motion.omega, h);
+    const Eigen::VectorXcd push = force - at.spring * u;
+    return Eigen::VectorXcd(at.factors.solve(at.load - d * push));
+  });
 }
 
 }  // namespace rotor_stator
