@@ -78,8 +78,9 @@ void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
   request.stability = what == "verdict";
+  request.periods = recorded_periods;
   Table table("Live", {});
-  const Computed at = computed(parameters, request, recorded_periods, table);
+  const Computed at = computed(parameters, request, table);
   conclude(table, parameters, at.touches(), at.budget);
   text = table.text();
   add_motion(parameters, request.frequency, at);

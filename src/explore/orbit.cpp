@@ -219,9 +219,9 @@ void put_statistics(Table& table, const motion::Observation& seen)
       "errors; an amplitude grows with the window");
 }
 
-/** What the machine does from rest, `open_periods` of a motion that does not close. */
+/** What the machine does from rest. */
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
-                           int open_periods, const OperationBudget& budget, Table& table)
+                           const OperationBudget& budget, Table& table)
 try {
   const motion::Answer answer =
       motion::answer(parameters,
@@ -229,7 +229,7 @@ try {
                       .method = request.method,
                       .tolerance = request.tolerance,
                       .points = request.points,
-                      .periods = open_periods,
+                      .periods = request.periods,
                       .step = request.step,
                       .local_error = request.local_error,
                       .longest = request.longest,
@@ -289,7 +289,7 @@ bool Computed::touches() const
 }
 
 Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  int open_periods, Table& table)
+                  Table& table)
 {
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
@@ -307,7 +307,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   else if (request.method == "shooting")
     at.found = closed_motion(parameters, request, at.budget, table);
   else
-    at.found = settled_motion(parameters, request, open_periods, at.budget, table);
+    at.found = settled_motion(parameters, request, at.budget, table);
   at.forces = motion::bearing_forces(at.found.machine, at.found.motion);
   return at;
 }
@@ -344,15 +344,13 @@ Exploration explore_orbit(const MotionRequest& request)
   table.choose(request.columns, usual, request.plot.has_value());
   const BasePeriod base = base_period(parameters);
   MotionRequest finer = request;
-  int recorded = request.periods;
   if (!measures.empty()) {
     const auto [machine, omega] = over(base, parameters, angular(request.frequency));
     const auto [points, periods] = measures.recording(machine, omega, request.points);
     finer.points = points;
-    if (measures.needs_whole()) recorded = std::max(recorded, periods);
-    if (base.is_driven_twice()) finer.periods = recorded;
+    if (measures.needs_whole()) finer.periods = std::max(request.periods, periods);
   }
-  const Computed at = computed(parameters, finer, recorded, table);
+  const Computed at = computed(parameters, finer, table);
   const motion::Motion& motion = at.found.motion;
   /** Of two frequencies harmonic balance prints a record. */
   const bool closes = at.found.closes_after > 0 &&
@@ -412,7 +410,7 @@ Exploration explore_contact(const MotionRequest& request)
                           most_points, bearing.balls));
   MotionRequest two = request;
   two.periods = 2;
-  const Computed at = computed(parameters, two, 2, table);
+  const Computed at = computed(parameters, two, table);
   for (std::size_t b = 0; b < bearings; ++b) {
     const motion::Motion& motion = at.found.motion;
     const Bearing one = bearings_of(at.found.machine)[b];

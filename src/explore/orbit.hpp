@@ -23,7 +23,7 @@ struct MotionRequest : Request {
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
   double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;        ///< base periods that are printed
+  int periods = 1;        ///< base periods that are printed, or recorded
   bool stability = true;  ///< Floquet multipliers in the header (aft)
 };
 
@@ -78,10 +78,9 @@ struct Computed {
   bool touches() const;
 };
 
-/** The motion that is asked for, `open_periods` of one that does not close; how it was
-    found goes to the table's header. */
+/** The motion that is asked for; how it was found goes to the table's header. */
 Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  int open_periods, Table& table);
+                  Table& table);
 
 /** Throws BadInput unless --from is below --to, or the same where one speed is taken. */
 void require_range(double from, double to, std::optional<int> count = 2);

@@ -49,7 +49,7 @@ Exploration explore_shape(const ShapeRequest& request)
                   : format("Orbits of a rotor's nodes over %d periods", request.periods),
               columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
-  const Computed at = computed(parameters, request, request.periods, table);
+  const Computed at = computed(parameters, request, table);
   table.note("nodes: " + request.nodes);
   for (const auto& [bearing, i] : machine.bearing_nodes())
     table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});

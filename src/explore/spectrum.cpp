@@ -92,7 +92,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
           measured.fail(k, std::string(name) + ": is beyond 1e30, too large to draw");
     table.note("overlay: " + *asked.overlay);
   }
-  const MotionRequest request = with_defaults(asked, parameters);
+  MotionRequest request = with_defaults(asked, parameters);
   const bool is_recorded = !is_periodic(request.method);
   /** Ten seconds in 64 to 256 turns. */
   const int turns =
@@ -102,7 +102,8 @@ Exploration explore_spectrum(const MotionRequest& asked)
   if (request.points > most_samples / turns)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / turns, turns));
-  Computed at = computed(parameters, request, turns, table);
+  request.periods = turns;
+  Computed at = computed(parameters, request, table);
   if (request.method != "aft")
     table.note(
         format("samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
