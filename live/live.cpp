@@ -54,6 +54,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
           .ball_force;
   const std::size_t instants = std::min(loads.size(), std::size_t(2 * per_turn));
   const motion::Lines all = lines_of(found);
+  const auto forces = motion::bearing_forces(found.machine, motion);
   const auto add = [](std::initializer_list<double> values) {
     numbers.insert(numbers.end(), values);
   };
@@ -63,7 +64,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
        double(all.lines.size())});
   for (std::size_t k = 0; k < rows; ++k) {
     const auto& [stator, rotor] = motion.positions[k];
-    add({stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
+    add({stator.x, stator.y, rotor.x, rotor.y, forces[k].x, forces[k].y});
   }
   for (std::size_t k = 0; k < instants; ++k)
     numbers.insert(numbers.end(), loads[k].begin(), loads[k].end());

@@ -308,7 +308,6 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
     at.found = closed_motion(parameters, request, at.budget, table);
   else
     at.found = settled_motion(parameters, request, at.budget, table);
-  at.forces = motion::bearing_forces(at.found.machine, at.found.motion);
   return at;
 }
 
@@ -359,8 +358,8 @@ Exploration explore_orbit(const MotionRequest& request)
       {at.found.machine, motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
        request.frequency, closes});
-  std::vector<std::vector<Vec2>> forces{at.forces};
-  for (std::size_t b = 1; b < bearings; ++b)
+  std::vector<std::vector<Vec2>> forces;
+  for (std::size_t b = 0; b < bearings; ++b)
     forces.push_back(motion::bearing_forces(at.found.machine, motion, b));
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *

@@ -69,10 +69,9 @@ struct FoundMotion {
   bool has_statistics = false;  ///< whether its means are in the header
 };
 
-/** A motion, the bearing's force at its instants, and what it has cost. */
+/** A motion, and what it has cost. */
 struct Computed {
   FoundMotion found = {};
-  std::vector<Vec2> forces = {};
   OperationBudget budget;
 
   bool touches() const;
