@@ -39,9 +39,8 @@ motion::Lines lines_of(const FoundMotion& found)
 
 /** First what says how to read the rest: instants, instants per turn, base periods, balls, cage ratio, clearance, first
     turn, whether the motion closes, instants of the contact over two turns, lines. */
-void add_motion(const Parameters& parameters, double frequency, const Computed& at)
+void add_motion(const Parameters& parameters, double frequency, const FoundMotion& found)
 {
-  const FoundMotion& found = at.found;
   const motion::Motion& motion = found.motion;
   const Bearing& bearing = parameters.bearing;
   const bool closes = found.closes_after > 0;
@@ -81,10 +80,10 @@ void show_motion(const std::string& what, const Parameters& parameters,
   request.stability = what == "verdict";
   request.periods = recorded_periods;
   Table table("Live", {});
-  const Computed at = computed(parameters, request, table);
-  conclude(table, parameters, at.touches(), at.budget);
+  const FoundMotion found = computed(parameters, request, table);
+  conclude(table, parameters, found.touches(), found.budget);
   text = table.text();
-  add_motion(parameters, request.frequency, at);
+  add_motion(parameters, request.frequency, found);
 }
 
 void show_response(const MotionRequest& at, double from, double to)

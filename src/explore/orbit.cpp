@@ -283,13 +283,13 @@ try {
 
 }  // namespace
 
-bool Computed::touches() const
+bool FoundMotion::touches() const
 {
-  return motion::contact_share(found.machine, found.motion) > 0;
+  return motion::contact_share(machine, motion) > 0;
 }
 
-Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  Table& table)
+FoundMotion computed(const Parameters& parameters, const MotionRequest& request,
+                     Table& table)
 {
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
@@ -301,14 +301,13 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   double seconds = request.method == "auto" ? 0 : 3;
   if (!is_periodic(request.method))
     seconds = std::max(seconds, parameters.bodies->patience().settling);
-  Computed at{.budget = budget_of(request, seconds, parameters)};
-  if (request.method == "aft")
-    at.found = balance_motion(parameters, request, at.budget, table);
-  else if (request.method == "shooting")
-    at.found = closed_motion(parameters, request, at.budget, table);
-  else
-    at.found = settled_motion(parameters, request, at.budget, table);
-  return at;
+  const OperationBudget budget = budget_of(request, seconds, parameters);
+  FoundMotion found =
+      request.method == "aft"        ? balance_motion(parameters, request, budget, table)
+      : request.method == "shooting" ? closed_motion(parameters, request, budget, table)
+                                     : settled_motion(parameters, request, budget, table);
+  found.budget = budget;
+  return found;
 }
 
 Exploration explore_orbit(const MotionRequest& request)
@@ -349,26 +348,25 @@ Exploration explore_orbit(const MotionRequest& request)
     finer.points = points;
     if (measures.needs_whole()) finer.periods = std::max(request.periods, periods);
   }
-  const Computed at = computed(parameters, finer, table);
-  const motion::Motion& motion = at.found.motion;
+  const FoundMotion at = computed(parameters, finer, table);
+  const motion::Motion& motion = at.motion;
   /** Of two frequencies harmonic balance prints a record. */
-  const bool closes = at.found.closes_after > 0 &&
-                      (!is_periodic(request.method) || !base.is_driven_twice());
+  const bool closes =
+      at.closes_after > 0 && (!is_periodic(request.method) || !base.is_driven_twice());
   const auto measured = measures.at_instants(
-      {at.found.machine, motion,
-       at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
+      {at.machine, motion,
+       at.base_periods / (at.base_frequency * motion.points_per_period),
        request.frequency, closes});
   std::vector<std::vector<Vec2>> forces;
   for (std::size_t b = 0; b < bearings; ++b)
-    forces.push_back(motion::bearing_forces(at.found.machine, motion, b));
-  const auto rows =
-      static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
-      request.points;
+    forces.push_back(motion::bearing_forces(at.machine, motion, b));
+  const auto rows = static_cast<std::size_t>(std::max(request.periods, at.closes_after)) *
+                    request.points;
   const auto each = static_cast<std::size_t>(finer.points / request.points);
   for (std::size_t row_at = 0; row_at < rows; ++row_at) {
     const std::size_t k = each * row_at, same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
-    const double periods = at.found.base_periods * motion.t_over_period(k);
+    const double periods = at.base_periods * motion.t_over_period(k);
     std::vector<Cell> row{2 * std::numbers::pi * periods, stator.x, stator.y, rotor.x,
                           rotor.y};
     for (const auto& own : forces) {
@@ -377,7 +375,7 @@ Exploration explore_orbit(const MotionRequest& request)
     }
     for (const auto& [name, place] : outputs)
       row.emplace_back(motion::shown_at(motion, same, place));
-    row.emplace_back(periods / at.found.base_frequency);
+    row.emplace_back(periods / at.base_frequency);
     for (const auto& column : measured) row.emplace_back(column[same]);
     table.row(std::move(row));
   }
@@ -409,12 +407,11 @@ Exploration explore_contact(const MotionRequest& request)
                           most_points, bearing.balls));
   MotionRequest two = request;
   two.periods = 2;
-  const Computed at = computed(parameters, two, table);
+  const FoundMotion at = computed(parameters, two, table);
   for (std::size_t b = 0; b < bearings; ++b) {
-    const motion::Motion& motion = at.found.motion;
-    const Bearing one = bearings_of(at.found.machine)[b];
-    const auto [times, forces] =
-        motion::contact_evolution(at.found.machine, motion, 2, b);
+    const motion::Motion& motion = at.motion;
+    const Bearing one = bearings_of(at.machine)[b];
+    const auto [times, forces] = motion::contact_evolution(at.machine, motion, 2, b);
     for (std::size_t k = 0; k < times.size(); ++k)
       for (std::size_t j = 0; j < forces[k].size(); ++j) {
         const double q = forces[k][j];
@@ -423,7 +420,7 @@ Exploration explore_contact(const MotionRequest& request)
         std::vector<Cell> row{times[k],
                               j + 1,
                               q,
-                              times[k] / at.found.base_frequency,
+                              times[k] / at.base_frequency,
                               angular(angle - std::floor(angle)),
                               1e-6 * one.pressure * std::cbrt(q)};
         if (bearings > 1) row.insert(row.begin() + 1, b + 1);

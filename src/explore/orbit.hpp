@@ -56,8 +56,8 @@ Parameters machine_of(const Request& request, double from, double to,
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
 
-/** A motion, the machine counted over its period, and its lines, which a record leaves
-    out. */
+/** A motion, the machine counted over its period, its lines, which a record leaves out,
+    and what it has cost. */
 struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
@@ -67,19 +67,14 @@ struct FoundMotion {
   int base_periods = 1;         ///< in one period of the motion's points
   int closes_after = 0;         ///< K base periods, exactly; 0 for a record
   bool has_statistics = false;  ///< whether its means are in the header
-};
-
-/** A motion, and what it has cost. */
-struct Computed {
-  FoundMotion found = {};
-  OperationBudget budget;
+  OperationBudget budget = {};
 
   bool touches() const;
 };
 
 /** The motion that is asked for; how it was found goes to the table's header. */
-Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  Table& table);
+FoundMotion computed(const Parameters& parameters, const MotionRequest& request,
+                     Table& table);
 
 /** Throws BadInput unless --from is below --to, or the same where one speed is taken. */
 void require_range(double from, double to, std::optional<int> count = 2);

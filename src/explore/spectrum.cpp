@@ -27,10 +27,9 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */
-motion::Lines lines_of(const MotionRequest& request, Computed& at, Table& table)
+motion::Lines lines_of(const MotionRequest& request, FoundMotion& found, Table& table)
 {
-  if (at.found.closes_after > 0) return std::move(at.found.lines);
-  const FoundMotion& found = at.found;
+  if (found.closes_after > 0) return std::move(found.lines);
   motion::Lines lines =
       motion::lines_of_recorded(bearings_of(found.machine), found.motion);
   for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
@@ -103,16 +102,15 @@ Exploration explore_spectrum(const MotionRequest& asked)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / turns, turns));
   request.periods = turns;
-  Computed at = computed(parameters, request, table);
+  FoundMotion at = computed(parameters, request, table);
   if (request.method != "aft")
-    table.note(
-        format("samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
-               "higher ones are folded onto these",
-               request.points / at.found.turns_of_period,
-               request.points / at.found.turns_of_period / 2));
+    table.note(format(
+        "samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
+        "higher ones are folded onto these",
+        request.points / at.turns_of_period, request.points / at.turns_of_period / 2));
   const motion::Lines lines = lines_of(request, at, table);
   for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
-    if (!at.found.has_statistics) table.value(name, lines.mean[k++]);
+    if (!at.has_statistics) table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
@@ -120,7 +118,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
       "the smallest multiple of BPFI; else a multiple of FTF or BSF; of a second bearing "
       "BPFO_2, ..., and k_cage counts its cage");
   if (!add_lines(table, bearings_of(parameters), request.frequency, lines,
-                 at.found.closes_after > 0 ? 128 : 16, least))
+                 at.closes_after > 0 ? 128 : 16, least))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
