@@ -131,7 +131,7 @@ EMSCRIPTEN_KEEPALIVE int live_run(const char* what, const char* file, const char
   text.clear();
   numbers.clear();
   std::ofstream(file, std::ios::binary) << toml;
-  MotionRequest request;
+  MotionRequest request{};
   request.parameter_file = file;
   request.frequency = frequency;
   request.method = "aft";

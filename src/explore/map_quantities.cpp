@@ -109,18 +109,15 @@ public:
 
   motion::Question question() const
   {
-    const MapRequest& asked = task_.request;
-    const auto tolerance = is_balance() ? std::nullopt : asked.tolerance;
+    motion::Request asked = task_.request;
+    asked.omega = angular(frequency_);
+    asked.periods = Measures::open_periods;
+    asked.is_measured = asked.tolerance ||
+                        asks_for({"stability", "multiplier", "uncertainty", "lyapunov"});
+    if (is_balance()) asked.method = "auto", asked.tolerance.reset();
+    asked.step_ratio = step_ratio(asked.tolerance);
     return {machine_,
-            {.omega = angular(frequency_),
-             .method = is_balance() ? "auto" : asked.method,
-             .tolerance = tolerance,
-             .periods = Measures::open_periods,
-             .step = asked.step,
-             .step_ratio = step_ratio(tolerance),
-             .longest = asked.longest,
-             .is_measured = asked.tolerance || asks_for({"stability", "multiplier",
-                                                         "uncertainty", "lyapunov"})},
+            asked,
             budget_,
             {},
             machine_.bodies->patience().transient_share,

@@ -202,8 +202,7 @@ const char* const usual_budget =
     "3 s for aft and shooting, up to 60 s for a branch)";
 
 /** Options of a motion in time. */
-template <class Asked>
-Check add_time_options(CLI::App& command, Asked& request)
+Check add_time_options(CLI::App& command, motion::Request& request)
 {
   const auto step = add_number(
       command, "--step", request.step, 0.0, largest,

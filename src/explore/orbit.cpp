@@ -12,7 +12,6 @@
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "model/read_machine.hpp"
-#include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
@@ -223,18 +222,10 @@ void put_statistics(Table& table, const motion::Observation& seen)
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table)
 try {
-  const motion::Answer answer =
-      motion::answer(parameters,
-                     {.omega = angular(request.frequency),
-                      .method = request.method,
-                      .tolerance = request.tolerance,
-                      .points = request.points,
-                      .periods = request.periods,
-                      .step = request.step,
-                      .local_error = request.local_error,
-                      .longest = request.longest,
-                      .is_measured = request.stability || request.tolerance},
-                     budget);
+  motion::Request asked = request;
+  asked.omega = angular(request.frequency);
+  asked.is_measured = request.stability || request.tolerance;
+  const motion::Answer answer = motion::answer(parameters, asked, budget);
   const Settled& settled = answer.settled;
   table.value("method", answer.method);
   put_base(table, answer.base.words(), answer.omega / angular(1));

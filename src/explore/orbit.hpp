@@ -7,24 +7,17 @@ other commands read their machine, bound their work and end their tables likewis
 
 #include "explore/request.hpp"
 #include "model/parameters.hpp"
+#include "motion/answer.hpp"
 #include "motion/lines.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
 
-/** Of orbit, contact and spectrum. */
-struct MotionRequest : Request {
-  double frequency = 0;  ///< [Hz]
-  /** The motion from rest; or a method that `is_periodic`, or a time method. */
-  std::string method = "auto";
-  std::optional<double> tolerance;  ///< of displacement, relative
-  std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
-  int points = 256;                 ///< P
-  double local_error = 1e-11;       ///< GSL's methods, relative
-  double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;        ///< base periods that are printed, or recorded
-  bool stability = true;  ///< Floquet multipliers in the header (aft)
+/** Of orbit, contact and spectrum: the motion from rest, with the speed in `frequency`
+    and `periods` as printed; or that of a method that `is_periodic`. */
+struct MotionRequest : Request, motion::Request {
+  double frequency = 0;           ///< [Hz]
+  std::optional<int> lines = {};  ///< of the settled motion, with two frequencies (aft)
+  bool stability = true;          ///< Floquet multipliers in the header (aft)
 };
 
 Exploration explore_orbit(const MotionRequest& request);
