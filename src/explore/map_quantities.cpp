@@ -43,7 +43,10 @@ public:
   const PeriodicMotion& solution()
   {
     return solution_([&] {
-      PeriodicMotion found = is_chosen() ? chosen().motion : with_fixed_harmonics();
+      BalanceSearch near = search();
+      if (before_.found() && before_.harmonics.count() == near.harmonics)
+        near.starts.push_back(before_.x);
+      PeriodicMotion found = is_chosen() ? chosen().motion : motion::find_periodic(near);
       if (!found.found())
         throw NoSolution(
             format("no solution found with %d harmonics: ", task_.harmonics) +
@@ -56,13 +59,8 @@ public:
   const motion::Judged& chosen()
   {
     return chosen_([&] {
-      require_period();
-      motion::Judged at = motion::to_tolerance({.parameters = based_.machine,
-                                                .omega = based_.omega,
-                                                .harmonics = 6 * base_.turns,
-                                                .newton = newton_,
-                                                .budget = budget_},
-                                               task_.request.tolerance.value_or(1e-3));
+      motion::Judged at =
+          motion::to_tolerance(search(), task_.request.tolerance.value_or(1e-3));
       if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
       return at;
     });
@@ -231,19 +229,15 @@ private:
                  passages_per_turn(machine_.bearing)));
   }
 
-  PeriodicMotion with_fixed_harmonics() const
+  BalanceSearch search() const
   {
     require_period();
-    const int m = base_.turns * task_.harmonics;
-    BalanceSearch search{.parameters = based_.machine,
-                         .omega = based_.omega,
-                         .harmonics = m,
-                         .samples = base_.turns * task_.samples,
-                         .newton = newton_,
-                         .budget = budget_};
-    if (before_.found() && before_.harmonics.count() == m)
-      search.starts.push_back(before_.x);
-    return motion::find_periodic(search);
+    return {.parameters = based_.machine,
+            .omega = based_.omega,
+            .harmonics = base_.turns * task_.harmonics,
+            .samples = base_.turns * task_.samples,
+            .newton = {.tolerance = task_.request.newton_tolerance},
+            .budget = budget_};
   }
 
   const MapTask& task_;
@@ -254,7 +248,6 @@ private:
   PeriodicMotion& before_;
   OperationBudget budget_ =
       budget_of_each(task_.request.budget, seconds_of_a_point, machine_);
-  NewtonSettings newton_{.tolerance = task_.request.newton_tolerance};
   Once<PeriodicMotion> solution_;
   Once<motion::Judged> chosen_;
   Once<motion::Motion> motion_;
