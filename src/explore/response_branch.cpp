@@ -418,24 +418,21 @@ Exploration branch_by_shooting(const ResponseTask& task)
   const ResponseRequest& request = task.request;
   const Parameters& machine = task.machine;
   require_rotation_period(machine, "shooting");
-  const SpeedRange range{angular(task.upwards ? request.from : request.to),
-                         angular(task.upwards ? request.to : request.from)};
+  const auto [from, to] = task.range();
   /** On the motion that the machine settles on where that has the period T. */
-  const Settled settled = settle(machine, range.from, BasePeriod{},
-                                 {static_start(machine), 0}, {}, task.budget);
+  const Settled settled =
+      settle(machine, from, BasePeriod{}, {static_start(machine), 0}, {}, task.budget);
   std::string start = "time integration";
   State state = settled.at.state;
   if (settled.period != 1) {
-    const auto closed =
-        motion::closed_motion({machine, range.from, task.harmonics, task.samples,
-                               task.settings.newton, task.budget},
-                              points, 1e-11);
+    const auto closed = motion::closed_motion(
+        {machine, from, task.harmonics, task.samples, task.settings.newton, task.budget},
+        points, 1e-11);
     start = closed.start;
     state = closed.state;
   }
   ShootingCurve curve(machine, task.budget);
-  const Branch branch =
-      follow_branch(curve, range.from, range.to, curve.unknowns_of(state));
+  const Branch branch = follow_branch(curve, from, to, curve.unknowns_of(state));
   const auto [fields, usual, measures] = branch_columns(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
@@ -454,7 +451,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
         machine, solution.omega, there, {.intervals_per_period = finer.points});
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
-        .frequency = solution.omega / angular(1),
+        .frequency = task.hertz(solution.omega),
         .amplitude = amplitude_of(motion),
         .arc = arc,
         .newton = solution.newton.iterations,
