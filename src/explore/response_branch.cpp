@@ -25,8 +25,7 @@ namespace {
 BranchPoint saved_start(const ResponseTask& task, Curve& curve, Table& table)
 {
   const ResponseRequest& request = task.request;
-  const double at = angular(request.at.value_or(0));
-  BranchPoint point = restart_point(*task.saved, request.at ? &at : nullptr, curve);
+  BranchPoint point = restart_point(*task.saved, request.at, curve);
   const double omega = point.motion.omega, frequency = omega / angular(1);
   if (omega < angular(request.from) || omega > angular(request.to))
     throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
@@ -403,15 +402,6 @@ Exploration branch_by_balance(ResponseTask task)
   return {std::move(table), std::move(files), unfinished};
 }
 
-/** Of a motion that closes, between its instants. */
-static Displacements amplitude_of(const motion::Motion& motion)
-{
-  const Eigen::MatrixXd q = motion::displacement_samples(motion);
-  Displacements amplitude;
-  for (int i = 0; i < 4; ++i) amplitude[i] = half_range(q.col(i), true);
-  return amplitude;
-}
-
 Exploration branch_by_shooting(const ResponseTask& task)
 {
   constexpr int points = 256;
@@ -452,10 +442,11 @@ Exploration branch_by_shooting(const ResponseTask& task)
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
         .frequency = task.hertz(solution.omega),
-        .amplitude = amplitude_of(motion),
         .arc = arc,
         .newton = solution.newton.iterations,
         .harmonics = harmonics_of(task, motion::series_of(motion, task.harmonics))};
+    const Eigen::MatrixXd q = motion::displacement_samples(motion);
+    for (int i = 0; i < 4; ++i) row.amplitude[i] = half_range(q.col(i), true);
     if (has_further) row.measured = measures.of(record_of(machine, motion, true));
     if (request.stability) try {
         put_multipliers(row, motion::multipliers_through(machine, solution.omega, there,
