@@ -55,8 +55,6 @@ void put_verdict(Table& table, const Parameters& parameters, const motion::Verdi
 
 namespace {
 
-using motion::lines_of;
-
 /** The series of all coordinates in the place of those shown, where nodes of the rotor
     depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
@@ -106,19 +104,6 @@ motion::Judged solved(const Based& based, const BasePeriod& base,
   return at;
 }
 
-/** Lines by orders of the rotor's turns. */
-motion::Lines lines_of(const Bearing& bearing, const BasePeriod& base, int subharmonic,
-                       PeriodicMotion solution)
-{
-  if (base.kind != BasePeriod::Kind::passing)
-    return motion::lines_of(bearing, solution, base.turns * subharmonic);
-  std::vector<Harmonic> list = solution.harmonics.list();
-  for (Harmonic& h : list) h = {0, h.k_1};
-  solution.harmonics = Harmonics(std::move(list));
-  solution.omega /= passages_per_turn(bearing);
-  return motion::lines_of(bearing, solution);
-}
-
 FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base,
                             const MotionRequest& request, const OperationBudget& budget,
                             Table& table)
@@ -148,10 +133,13 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
     put_difference(table, "error", at.verdict.distance,
                    "against the nearest motion of Eq. 7");
   put_verdict(table, based.machine, request.stability ? &at.verdict : nullptr, k);
+  motion::Lines lines = motion::lines_of(parameters.bearing, solution, base.turns * k);
+  if (base.kind == BasePeriod::Kind::passing)
+    for (motion::Line& line : lines.lines) line.order *= passages;
   const Parameters machine = over_turns(based.machine, k);
   return {.motion = motion::motion_of(with_all_coordinates(machine, solution),
                                       k * request.points),
-          .lines = lines_of(parameters.bearing, base, k, solution),
+          .lines = std::move(lines),
           .machine = machine,
           .base_frequency = based.omega / angular(1),
           .base_periods = k,
