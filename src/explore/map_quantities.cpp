@@ -332,12 +332,31 @@ Quantity named(const std::string& name, const std::function<Parameters()>& machi
                  "; measures such as contact_share, ball_load, force, rms_v_x_r)");
 }
 
+std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
+                   std::string status)
+{
+  std::string row;
+  for (const Quantity& quantity : chosen) {
+    std::string text = no_value;
+    try {
+      if (point) {
+        const Cell cell = quantity.value(*point);
+        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
+        text = cell.text();
+      }
+    } catch (const std::runtime_error& none) {
+      if (status == all_well) status = printable(none.what());
+    }
+    row += text + "\t";
+  }
+  return row + status;
+}
+
 }  // namespace
 
-const std::vector<Column>& map_quantities()
+std::vector<Column> map_quantities()
 {
-  static const std::vector<Column> columns(quantities.begin(), quantities.end());
-  return columns;
+  return {quantities.begin(), quantities.end()};
 }
 
 std::vector<Quantity> chosen_quantities(const MapTask& task)
@@ -385,30 +404,6 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
       require_two_masses(machine, ("--quantity " + one.name).c_str());
   return chosen;
 }
-
-namespace {
-
-std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
-                   std::string status)
-{
-  std::string row;
-  for (const Quantity& quantity : chosen) {
-    std::string text = no_value;
-    try {
-      if (point) {
-        const Cell cell = quantity.value(*point);
-        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
-        text = cell.text();
-      }
-    } catch (const std::runtime_error& none) {
-      if (status == all_well) status = printable(none.what());
-    }
-    row += text + "\t";
-  }
-  return row + status;
-}
-
-}  // namespace
 
 std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity>& chosen,
                                  std::span<const std::vector<double>> points,
