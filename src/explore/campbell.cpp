@@ -107,8 +107,7 @@ Exploration explore_campbell(const CampbellRequest& request)
       for (int number = 1; const Mode& mode : modes.back()) {
         if (warning.empty()) warning = doubt(mode);
         if (!request.critical)
-          table.row({speed, number++, mode.frequency, mode.damping,
-                     static_cast<int>(mode.whirl)});
+          table.row({speed, number++, mode.frequency, mode.damping, mode.whirl});
       }
     }
     for (const auto& [value, name] : orders)

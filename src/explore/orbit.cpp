@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "balance/fourier_transform.hpp"
@@ -358,8 +357,7 @@ Exploration explore_orbit(const MotionRequest& request)
     const std::size_t k = each * row_at, same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
     const double periods = at.base_periods * motion.t_over_period(k);
-    std::vector<Cell> row{2 * std::numbers::pi * periods, stator.x, stator.y, rotor.x,
-                          rotor.y};
+    std::vector<Cell> row{angular(periods), stator.x, stator.y, rotor.x, rotor.y};
     for (const auto& own : forces) {
       row.emplace_back(own[same].x);
       row.emplace_back(own[same].y);

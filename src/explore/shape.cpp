@@ -1,7 +1,6 @@
 #include "explore/shape.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "io/errors.hpp"
 #include "io/table.hpp"
@@ -67,8 +66,8 @@ Exploration explore_shape(const ShapeRequest& request)
     for (std::size_t k = 0; k < instants; ++k) {
       const double periods = at.base_periods * motion.t_over_period(k);
       const auto place = places.col(k).segment<2>(2 * i);
-      table.row({number(i), nodes.at(i, "z"), 2 * std::numbers::pi * periods, place[0],
-                 place[1], periods / at.base_frequency});
+      table.row({number(i), nodes.at(i, "z"), angular(periods), place[0], place[1],
+                 periods / at.base_frequency});
     }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

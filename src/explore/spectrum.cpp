@@ -14,18 +14,6 @@ namespace {
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
-/** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics
-    up to three times BPFO. */
-MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
-{
-  const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
-                       !request.lines && request.subharmonic == 1;
-  if (request.method == "aft" && is_free && turns_to_repeat({parameters.bearing}) > 0)
-    request.harmonics = static_cast<int>(
-        std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
-  return request;
-}
-
 /** Those that harmonic balance or shooting have found, or read from the record. */
 motion::Lines lines_of(const MotionRequest& request, FoundMotion& found, Table& table)
 {
@@ -91,17 +79,21 @@ Exploration explore_spectrum(const MotionRequest& asked)
           measured.fail(k, std::string(name) + ": is beyond 1e30, too large to draw");
     table.note("overlay: " + *asked.overlay);
   }
-  MotionRequest request = with_defaults(asked, parameters);
-  const bool is_recorded = !is_periodic(request.method);
-  /** Ten seconds in 64 to 256 turns. */
-  const int turns =
-      is_recorded
-          ? static_cast<int>(std::clamp(std::ceil(10 * request.frequency), 64.0, 256.0))
-          : request.subharmonic;
-  if (request.points > most_samples / turns)
+  MotionRequest request = asked;
+  const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
+                       !request.lines && request.subharmonic == 1;
+  /** Up to three times BPFO. */
+  if (request.method == "aft" && is_free && turns_to_repeat({parameters.bearing}) > 0)
+    request.harmonics = static_cast<int>(
+        std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
+  /** Ten seconds in 64 to 256 turns tell lines apart. */
+  request.periods =
+      is_periodic(request.method)
+          ? request.subharmonic
+          : static_cast<int>(std::clamp(std::ceil(10 * request.frequency), 64.0, 256.0));
+  if (request.points > most_samples / request.periods)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
-                          most_samples / turns, turns));
-  request.periods = turns;
+                          most_samples / request.periods, request.periods));
   FoundMotion at = computed(parameters, request, table);
   if (request.method != "aft")
     table.note(format(
