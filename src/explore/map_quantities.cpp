@@ -1,7 +1,6 @@
 #include "explore/map_quantities.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"

@@ -1,16 +1,13 @@
 #include "explore/response.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "balance/bearing_problem.hpp"
+#include "balance/torus_line.hpp"
 #include "explore/response_branch.hpp"
 #include "explore/response_sweep.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
-#include "motion/contact.hpp"
-#include "motion/lines.hpp"
 
 namespace rotor_stator::explore {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 #include "io/table.hpp"
 
