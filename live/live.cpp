@@ -9,6 +9,7 @@ What `explore` does, for the page: a question goes in as strings and numbers, on
 #include <fstream>
 
 #include "explore/response.hpp"
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
 #include "motion/contact.hpp"
@@ -27,15 +28,6 @@ EM_JS(void, show_point, (double f, double x_s, double y_s, double x_r, double y_
 
 /** Instants of a motion that is drawn, in base periods; of one that does not close, of which lines need more. */
 constexpr int drawn_periods = 8, recorded_periods = 64;
-
-/** Those of a motion that closes are known; of another one they are read from its record. */
-motion::Lines lines_of(const FoundMotion& found)
-{
-  if (found.closes_after > 0) return found.lines;
-  motion::Lines lines = motion::lines_of_recorded({found.machine.bearing}, found.motion);
-  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
-  return lines;
-}
 
 /** First what says how to read the rest: instants, instants per turn, base periods, balls, cage ratio, clearance, first
     turn, whether the motion closes, instants of the contact over two turns, lines. */

@@ -13,23 +13,6 @@ namespace {
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
-/** Those that harmonic balance or shooting have found, or read from the record. */
-motion::Lines lines_of(const MotionRequest& request, FoundMotion& found, Table& table)
-{
-  if (found.closes_after > 0) return std::move(found.lines);
-  motion::Lines lines =
-      motion::lines_of_recorded(bearings_of(found.machine), found.motion);
-  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
-  const int turns = static_cast<int>(found.motion.size()) / request.points;
-  table.note(format(
-      "lines: least squares over %d base periods, window of Blackman and Harris, at most "
-      "200; lines nearer than %.3g of the speed may be taken for one; unexplained: "
-      "rms of the rest, in no line, over that about the mean",
-      turns, 4.0 / (turns * found.turns_of_period)));
-  table.value("unexplained", lines.rest, 2);
-  return lines;
-}
-
 }  // namespace
 
 const std::vector<Column> line_columns{
@@ -44,6 +27,15 @@ const std::vector<Column> line_columns{
     {"y_s", "m", "amplitude, stator"},
     {"x_r", "m", "amplitude, rotor"},
     {"y_r", "m", "amplitude, rotor"}};
+
+motion::Lines lines_of(const FoundMotion& found)
+{
+  if (found.closes_after > 0) return found.lines;
+  motion::Lines lines =
+      motion::lines_of_recorded(bearings_of(found.machine), found.motion);
+  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
+  return lines;
+}
 
 bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
                motion::Lines all, int passages, double smallest)
@@ -93,13 +85,22 @@ Exploration explore_spectrum(const MotionRequest& asked)
   if (request.points > most_samples / request.periods)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / request.periods, request.periods));
-  FoundMotion at = computed(parameters, request, table);
+  const FoundMotion at = computed(parameters, request, table);
   if (request.method != "aft")
     table.note(format(
         "samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
         "higher ones are folded onto these",
         request.points / at.turns_of_period, request.points / at.turns_of_period / 2));
-  const motion::Lines lines = lines_of(request, at, table);
+  const motion::Lines lines = lines_of(at);
+  if (at.closes_after == 0) {
+    const int turns = static_cast<int>(at.motion.size()) / request.points;
+    table.note(format(
+        "lines: least squares over %d base periods, window of Blackman and Harris, at "
+        "most 200; lines nearer than %.3g of the speed may be taken for one; "
+        "unexplained: rms of the rest, in no line, over that about the mean",
+        turns, 4.0 / (turns * at.turns_of_period)));
+    table.value("unexplained", lines.rest, 2);
+  }
   for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
     if (!at.has_statistics) table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
