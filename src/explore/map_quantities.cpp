@@ -147,14 +147,7 @@ public:
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
-    if (is_balance()) {
-      const motion::Motion& record = motion_([&] {
-        return motion::motion_of(
-            solution(),
-            measures.recording(based_.machine, solution().omega, instants).points);
-      });
-      return measures.of(record_of(based_.machine, record, true)).at(0);
-    }
+    if (is_balance()) return measures.of(based_.machine, solution(), instants).at(0);
     const motion::Answer& whole = whole_(
         [&] { return whole_motion(measures, settled(), question().request, budget_); });
     return measures.of(record_of(whole)).at(0);
@@ -249,7 +242,6 @@ private:
       budget_of_each(task_.request.budget, seconds_of_a_point, machine_);
   Once<PeriodicMotion> solution_;
   Once<motion::Judged> chosen_;
-  Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;
   motion::Observed settled_;

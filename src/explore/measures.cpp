@@ -259,6 +259,13 @@ std::vector<double> Measures::of(const Record& record) const
   return values;
 }
 
+std::vector<double> Measures::of(const Parameters& machine,
+                                 const PeriodicMotion& solution, int points) const
+{
+  points = recording(machine, solution.omega, points).points;
+  return of(record_of(machine, motion::motion_of(solution, points), true));
+}
+
 std::vector<std::vector<double>> Measures::at_instants(const Record& record) const
 {
   std::vector<std::vector<double>> columns;
@@ -270,10 +277,9 @@ std::vector<std::vector<double>> Measures::at_instants(const Record& record) con
   return columns;
 }
 
-Recording Measures::recording(const Parameters& machine, double omega, int points,
-                              int periods) const
+Recording Measures::recording(const Parameters& machine, double omega, int points) const
 {
-  if (empty()) return {points, periods};
+  if (empty()) return {points, open_periods};
   constexpr double each = 16;   // of a vibration
   constexpr double most = 3e7;  // numbers that are kept
   constexpr int least_periods = 16;

@@ -335,15 +335,14 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
     motion.bodies = body_series(task_.parameters, motion);
   row.harmonics = harmonics_of(task_, motion.bodies);
   const Measures& measures = columns_.measures;
-  if (has_further_) {
-    const bool two = task_.has_two_frequencies;
-    const auto [points, turns] =
-        measures.recording(task_.parameters, motion.omega,
-                           two ? 128 : std::max(256, 4 * task_.harmonics + 4), 64);
+  if (has_further_ && task_.has_two_frequencies) {
+    const auto [points, turns] = measures.recording(task_.parameters, motion.omega, 128);
     const motion::Motion record =
-        two ? motion::motion_of(task_.parameters, motion, points, turns)
-            : motion::motion_of(motion, points);
-    row.measured = measures.of(record_of(task_.parameters, record, !two));
+        motion::motion_of(task_.parameters, motion, points, turns);
+    row.measured = measures.of(record_of(task_.parameters, record, false));
+  } else if (has_further_) {
+    row.measured =
+        measures.of(task_.parameters, motion, std::max(256, 4 * task_.harmonics + 4));
   }
   table_.row(columns_.fields, row);
   if (!has_lines) return;
@@ -436,9 +435,9 @@ Exploration branch_by_shooting(const ResponseTask& task)
   std::string why;
   for (const auto& [solution, arc, tangent] : branch.points) {
     const State there = curve.state(solution.x);
-    const auto finer = measures.recording(machine, solution.omega, points, 1);
-    const motion::Motion motion = motion::one_period(
-        machine, solution.omega, there, {.intervals_per_period = finer.points});
+    const int finer = measures.recording(machine, solution.omega, points).points;
+    const motion::Motion motion = motion::one_period(machine, solution.omega, there,
+                                                     {.intervals_per_period = finer});
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
         .frequency = task.hertz(solution.omega),
