@@ -17,7 +17,7 @@ into memory), under Hann's window where lines are asked for. Rates are differenc
 order 8.
 
     const Measures measures(request.columns, machine);
-    const std::vector<double> row = measures.of({motion, step, rotor_hertz, closes}); */
+    const std::vector<double> row = measures.of(record_of(answer)); */
 #pragma once
 
 #include "io/table.hpp"

@@ -10,7 +10,6 @@
 #include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "model/read_machine.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
@@ -38,15 +37,12 @@ void require_method_of(const Parameters& parameters, const std::string& method)
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
-Parameters machine_of(const Request& request, double from, double to,
-                      const NumberTable* nodes)
+Parameters machine_of(const Request& request, double from, double to, ModelRange range)
 {
-  return doubted(read_machine(StrictToml(request.parameter_file),
-                              {.from = from,
-                               .to = to,
-                               .harmonics = std::max(64, request.harmonics.value_or(0)),
-                               .nodes = nodes}),
-                 to);
+  range.from = from;
+  range.to = to;
+  range.harmonics = std::max(range.harmonics, request.harmonics.value_or(0));
+  return doubted(read_machine(StrictToml(request.parameter_file), range), to);
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)

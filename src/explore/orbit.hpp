@@ -6,7 +6,7 @@ other commands read their machine, bound their work and end their tables likewis
 #pragma once
 
 #include "explore/request.hpp"
-#include "model/parameters.hpp"
+#include "model/read_machine.hpp"
 #include "motion/answer.hpp"
 #include "motion/lines.hpp"
 
@@ -38,10 +38,10 @@ inline const Column phase_column{
     "--periods K"};
 inline const Column time_column{"t", "s", "time since phase 0"};
 
-/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's
-    `nodes`. Throws BadInput. */
+/** The machine, right at these speeds [Hz], the request's harmonics and what else is in
+    `range`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
-                      const NumberTable* nodes = nullptr);
+                      ModelRange range = {});
 
 /**
 ## A motion */

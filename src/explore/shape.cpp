@@ -38,7 +38,7 @@ Exploration explore_shape(const ShapeRequest& request)
                request.nodes.c_str(), nodes.rows(), instants, most_rows));
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
   const Parameters parameters =
-      machine_of(request, request.frequency, request.frequency, &nodes);
+      machine_of(request, request.frequency, request.frequency, {.nodes = &nodes});
   if (parameters.bodies->nodes().rows() == 0)
     throw BadInput(request.parameter_file +
                    ": rotor.matrices is missing: shape is that of a rotor given by them");
