@@ -220,11 +220,11 @@ Check add_time_options(CLI::App& command, motion::Request& request)
 
 std::string methods_in_words(bool has_shooting)
 {
-  return std::string(
-             "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
-             "balance), ") +
-         (has_shooting ? "shooting, " : "") + "gauss (of bodies given by matrices), " +
-         joined(time_methods(), ", ");
+  const std::string periodic =
+      "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
+      "balance), ";
+  return periodic + (has_shooting ? "shooting, " : "") +
+         "gauss (of bodies given by matrices), " + joined(time_methods(), ", ");
 }
 
 /** An option of harmonic balance asks for it. */
