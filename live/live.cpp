@@ -69,7 +69,7 @@ void add_motion(const Parameters& parameters, double frequency, const FoundMotio
 void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
-  request.stability = what == "verdict";
+  request.is_measured = what == "verdict";
   request.periods = recorded_periods;
   Table table("Live", {});
   const FoundMotion found = computed(parameters, request, table);

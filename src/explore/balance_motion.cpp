@@ -96,7 +96,7 @@ motion::Judged solved(const Based& based, const BasePeriod& base,
       .turns = request.subharmonic};
   if (!request.harmonics && (request.tolerance || request.subharmonic > 1))
     return motion::to_tolerance(search, request.tolerance.value_or(usual_tolerance));
-  if (request.stability || request.tolerance)
+  if (request.is_measured || request.tolerance)
     return motion::judged(search, request.tolerance);
   motion::Judged at{.motion = motion::find_periodic(search)};
   at.reached = at.motion.found();
@@ -132,7 +132,7 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   if (at.verdict.found() && (request.tolerance || k > 1))
     put_difference(table, "error", at.verdict.distance,
                    "against the nearest motion of Eq. 7");
-  put_verdict(table, based.machine, request.stability ? &at.verdict : nullptr, k);
+  put_verdict(table, based.machine, request.is_measured ? &at.verdict : nullptr, k);
   motion::Lines lines = motion::lines_of(parameters.bearing, solution, base.turns * k);
   if (base.kind == BasePeriod::Kind::passing)
     for (motion::Line& line : lines.lines) line.order *= passages;
@@ -178,7 +178,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
                                    angular(request.frequency),
                                    {.tolerance = request.newton_tolerance},
                                    budget,
-                                   request.stability};
+                                   request.is_measured};
   const motion::Torus torus =
       request.harmonics ? motion::torus_on_orders(search, *request.harmonics)
       : request.lines
@@ -205,7 +205,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   if (torus.error && !request.harmonics && !request.lines)
     put_difference(table, "error", *torus.error,
                    "against the nearest motion of Eq. 7, by integration");
-  if (request.stability)
+  if (request.is_measured)
     note_torus_verdict(table, torus);
   else
     put_verdict(table, parameters, nullptr, 1);

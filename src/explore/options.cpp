@@ -271,7 +271,7 @@ Check add_options(CLI::App& command, MotionRequest& request)
   if (name == "orbit" || name == "shape")
     add_number(command, "--periods", request.periods, 1, 1000,
                "base periods that are printed");
-  command.add_flag("!--no-stability", request.stability,
+  command.add_flag("!--no-stability", request.is_measured,
                    "leave out stability and, of a motion in time, the error");
   const Check check_time = add_time_options(command, request);
   const auto local_error =

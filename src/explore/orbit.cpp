@@ -183,7 +183,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
                parameters.file.c_str(), *request.tolerance, request.frequency, error));
   put_base(table, "turn", request.frequency);
   std::optional<motion::Verdict> verdict;
-  if (request.stability)
+  if (request.is_measured)
     verdict = motion::judge_through(parameters, omega, closed.state, budget, turns);
   put_verdict(table, parameters, verdict ? &*verdict : nullptr, turns);
   motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
@@ -219,7 +219,7 @@ FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& re
 try {
   motion::Request asked = request;
   asked.omega = angular(request.frequency);
-  asked.is_measured = request.stability || request.tolerance;
+  asked.is_measured = request.is_measured || request.tolerance;
   const motion::Answer answer = motion::answer(parameters, asked, budget);
   const Settled& settled = answer.settled;
   table.value("method", answer.method);

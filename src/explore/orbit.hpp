@@ -13,11 +13,11 @@ other commands read their machine, bound their work and end their tables likewis
 namespace rotor_stator::explore {
 
 /** Of orbit, contact and spectrum: the motion from rest, with the speed in `frequency`
-    and `periods` as printed; or that of a method that `is_periodic`. */
+    and `periods` as printed; or that of a method that `is_periodic`, which `is_measured`
+    gives its multipliers. */
 struct MotionRequest : Request, motion::Request {
   double frequency = 0;           ///< [Hz]
   std::optional<int> lines = {};  ///< of the settled motion, with two frequencies (aft)
-  bool stability = true;          ///< Floquet multipliers in the header (aft)
 };
 
 Exploration explore_orbit(const MotionRequest& request);
