@@ -5,6 +5,7 @@
 
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
+#include "model/large_machine.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/quasi_periodic.hpp"
 
@@ -59,7 +60,8 @@ namespace {
     depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
 {
-  if (parameters.bodies->nodes().rows() > 0)
+  const LargeBodies* large = parameters.bodies->matrices();
+  if (large && large->nodes.rows() > 0)
     solution.bodies = parameters.bodies->all_series(parameters, solution);
   return solution;
 }

@@ -46,8 +46,7 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
     const Slopes2 c =
         Parallel(joint.parallel, angular(speed)).reaction({0, 0}, {0, 0}).damping;
     const auto own = d.middleCols<2>(at);
-    machine_.damping +=
-        own * Eigen::Matrix2d{{c.xx, c.xy}, {c.yx, c.yy}} * own.transpose();
+    machine_.damping += own * c.matrix() * own.transpose();
     at += 2;
   }
   mass_ = machine_.mass.bottomRightCorner(n, n);

@@ -128,9 +128,8 @@ void add_sag(Doubts& all, const Parameters& machine)
 {
   const auto rest = vector_of(machine.bodies->static_start(machine));
   /** The other coordinates of a large body are no displacements. */
-  const auto* large = dynamic_cast<const MatrixMachine*>(machine.bodies.get());
-  double sag =
-      rest.head(large ? large->bodies().shown : rest.size() / 2).cwiseAbs().maxCoeff();
+  const LargeBodies* large = machine.bodies->matrices();
+  double sag = rest.head(large ? large->shown : rest.size() / 2).cwiseAbs().maxCoeff();
   for (const Bearing& bearing : bearings_of(machine))
     sag -= std::max(0.0, bearing.clearance);
   all.add(sag > deepest,
@@ -160,8 +159,7 @@ void add_damper(Doubts& all, const Parameters& machine)
 /** About bodies given by matrices. */
 void add_bodies(Doubts& all, const Parameters& machine)
 {
-  const double weight =
-      dynamic_cast<const MatrixMachine&>(*machine.bodies).bodies().size_of_loads;
+  const double weight = machine.bodies->matrices()->size_of_loads;
   const double e = printable_size(machine.unbalance * machine.gravity / weight);
   all.add(weight > 0 && e > most_eccentric,
           format("the unbalance of %.3g kg m is an eccentricity of %.3g m of all that "

@@ -1,6 +1,7 @@
 #include "explore/resume.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -13,6 +14,9 @@ namespace rotor_stator::explore {
 void each_row_of(const std::string& file, const std::string& what,
                  const std::string& beginning, const TakeRow& take)
 try {
+  std::error_code none;
+  if (std::filesystem::equivalent(file, "/dev/stdout", none))
+    throw BadInput("is where the rows go; write to another file, then move it here");
   std::ifstream in = open_file(file, "a " + what, std::uintmax_t{1} << 60);
   std::string found(beginning.size(), '\0');
   in.read(found.data(), static_cast<std::streamsize>(found.size()));

@@ -39,10 +39,10 @@ Exploration explore_shape(const ShapeRequest& request)
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
   const Parameters parameters =
       machine_of(request, request.frequency, request.frequency, {.nodes = &nodes});
-  if (parameters.bodies->nodes().rows() == 0)
+  const LargeBodies* machine = parameters.bodies->matrices();
+  if (!machine || machine->nodes.rows() == 0)
     throw BadInput(request.parameter_file +
                    ": rotor.matrices is missing: shape is that of a rotor given by them");
-  const Machine& machine = *parameters.bodies;
   Table table(request.periods == 1
                   ? "Orbits of a rotor's nodes over one period"
                   : format("Orbits of a rotor's nodes over %d periods", request.periods),
@@ -50,17 +50,17 @@ Exploration explore_shape(const ShapeRequest& request)
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
   const FoundMotion at = computed(parameters, request, table);
   table.note("nodes: " + request.nodes);
-  for (const auto& [bearing, i] : machine.bearing_nodes())
+  for (const auto& [bearing, i] : machine->bearing_nodes)
     table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});
   const motion::Motion& motion = at.motion;
   instants = static_cast<std::size_t>(std::max(request.periods, at.closes_after)) *
              request.points;
-  Eigen::MatrixXd places(machine.nodes().rows(), instants);
-  Eigen::VectorXd q(machine.nodes().cols());
+  Eigen::MatrixXd places(machine->nodes.rows(), instants);
+  Eigen::VectorXd q(machine->nodes.cols());
   for (std::size_t k = 0; k < instants; ++k) {
     for (int i = 0; i < q.size(); ++i)
       q[i] = motion::shown_at(motion, k % motion.size(), i);
-    places.col(k) = machine.nodes() * q;
+    places.col(k) = machine->nodes * q;
   }
   for (std::size_t i = 0; i < nodes.rows(); ++i)
     for (std::size_t k = 0; k < instants; ++k) {

@@ -10,10 +10,9 @@ namespace rotor_stator {
 
 BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
     : bearing_(bearing), is_elastic_hertz_(bearing.is_elastic_hertz()), turns_(turns),
-      omega_(omega), rotor_speed_(turns * omega),
-      cage_speed_(bearing.cage_speed_ratio * omega),
+      omega_(omega), cage_speed_(bearing.cage_speed_ratio * omega),
       place_(Direction::of(bearing.defect.place)),
-      parallel_(bearing.parallel, bearing.parallel.speed_ratio * rotor_speed_)
+      parallel_(bearing.parallel, bearing.parallel.speed_ratio * (turns * omega))
 {
   for (int j = 0; j < bearing.balls; ++j) {
     const Direction ball = Direction::of(2 * std::numbers::pi * j / bearing.balls);
@@ -42,7 +41,7 @@ BallBearing::Loss BallBearing::loss(std::size_t ball, Direction direction,
     const bool turns = spall.surface == Defect::Surface::inner_race;
     met = turned(direction, opposite(place_));
     if (turns) met = turned(met, opposite(at.rotor));
-    speed = cage_speed_ - (turns ? rotor_speed_ : 0);
+    speed = cage_speed_ - (turns ? turns_ * omega_ : 0);
   } else if (ball + 1 != static_cast<std::size_t>(spall.ball)) {
     return {0, 0};
   } else if (met.cos < 0) {
@@ -145,18 +144,9 @@ struct Samples {
   Eigen::MatrixXd& force;
   Eigen::MatrixXd* stiffness;
 
-  template <class Number>
-  IN_PLACE void evaluate() const
-  {
-    if (stiffness)
-      evaluate_groups<Number, true>();
-    else
-      evaluate_groups<Number, false>();
-  }
-
   /** The last group overlaps the one before where N is no multiple of the lanes. */
   template <class Number, bool with_stiffness>
-  IN_PLACE void evaluate_groups() const
+  IN_PLACE void evaluate() const
   {
     constexpr Eigen::Index instants = lanes_in<Number>;
     const ContactLaw<Number> laws{
@@ -186,7 +176,11 @@ void evaluate(const Samples& samples)
 {
   in_registers(
       registers, [&]() __attribute__((always_inline)) {
-        samples.evaluate<Lanes<static_cast<int>(registers)>>();
+        using Number = Lanes<static_cast<int>(registers)>;
+        if (samples.stiffness)
+          samples.evaluate<Number, true>();
+        else
+          samples.evaluate<Number, false>();
       });
 }
 
@@ -203,7 +197,7 @@ void evaluate(const Samples& samples)
 }  // namespace
 
 SampledBearing::SampledBearing(const Bearing& bearing, int samples)
-    : samples_(samples), cage_(std::max(samples, most_instants), 2), bearing_(bearing)
+    : cage_(std::max(samples, most_instants), 2), bearing_(bearing)
 {
   for (Eigen::Index k = 0; k < cage_.rows(); ++k) {
     const Direction cage = Direction::of(
@@ -218,10 +212,10 @@ void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force
 {
   if (u.rows() < cage_.rows()) {
     Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(cage_.rows(), 2);
-    filled.topRows(samples_) = u;
+    filled.topRows(u.rows()) = u;
     (*this)(filled, force, stiffness);
-    force.conservativeResize(samples_, 2);
-    if (stiffness) stiffness->conservativeResize(samples_, 4);
+    force.conservativeResize(u.rows(), 2);
+    if (stiffness) stiffness->conservativeResize(u.rows(), 4);
     return;
   }
   force.resize(cage_.rows(), 2);

@@ -238,9 +238,9 @@ private:
 
   Bearing bearing_;
   bool is_elastic_hertz_;
-  double turns_, omega_, rotor_speed_, cage_speed_;  ///< [rad/s]
-  Direction place_;                                  ///< of the spall's middle
-  std::vector<double> cosines_, sines_;              ///< of the balls at cage angle 0
+  double turns_, omega_, cage_speed_;    ///< [-], [rad/s], [rad/s]
+  Direction place_;                      ///< of the spall's middle
+  std::vector<double> cosines_, sines_;  ///< of the balls at cage angle 0
   Parallel parallel_;
 };
 
@@ -262,7 +262,6 @@ public:
                   Eigen::MatrixXd* stiffness) const;
 
 private:
-  int samples_;
   Eigen::MatrixX2d cage_;  ///< cosines and sines; at least of one group
   BallBearing bearing_;
 };

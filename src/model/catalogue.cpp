@@ -40,10 +40,9 @@ const Ways stiffness_ways{own_stiffness_ways[0],
                           own_stiffness_ways[2],
                           {designation_key}};
 
-/** The catalogue's tables [[`key`]]. */
-std::vector<StrictToml> catalogue(const std::string& key)
+StrictToml catalogue()
 {
-  return StrictToml("deep_groove.toml", bearing_catalogue).tables(key);
+  return StrictToml("deep_groove.toml", bearing_catalogue);
 }
 
 /** A designation as people write it, "SKF 6205-2RS1/C3": what is looked up, the class of
@@ -106,7 +105,7 @@ Designation read_designation(StrictToml& table)
 StrictToml entry_of(StrictToml& table, const std::string& wanted)
 {
   std::vector<std::string> known;
-  for (StrictToml& entry : catalogue("bearing")) {
+  for (StrictToml& entry : catalogue().tables("bearing")) {
     known.push_back(entry.string(designation_key));
     if (known.back() == wanted) return entry;
   }
@@ -173,7 +172,7 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 std::vector<double> clearance_range(StrictToml& table, const std::string& wanted,
                                     double bore)
 {
-  for (StrictToml& range : catalogue("clearance"))
+  for (StrictToml& range : catalogue().tables("clearance"))
     if (bore > range.number("above_m", Range::positive) &&
         bore <= range.number("up_to_m", Range::positive))
       return range.numbers(wanted, Range::not_negative);
@@ -279,8 +278,7 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
           "a groove ratio of %g: it is the groove's radius over the ball's diameter, "
           "about 0.52",
           std::min(ratio, 1e300));
-  StrictToml material =
-      way == 2 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
+  StrictToml material = way == 2 ? table : catalogue().table("steel");
   const Solid steel{
       .young_modulus = material.number("youngs_modulus_Pa", Range::positive),
       .poisson_ratio = material.number("poissons_ratio", Range::not_negative)};
@@ -303,7 +301,7 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
   return stiffness;
 }
 
-Defect read_defect(StrictToml& table, const Bearing& bearing)
+Defect read_defect(StrictToml table, const Bearing& bearing)
 {
   using enum Defect::Surface;
   Defect defect;
@@ -351,7 +349,7 @@ KinematicOrders kinematic_orders(const Bearing& bearing)
           .inner = bearing.balls * (1 - c)};
 }
 
-Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
+Bearing read_bearing(StrictToml table, std::vector<std::string>& derived)
 {
   for (const Ways& ways : {cage_ways, stiffness_ways, clearance_ways})
     table.may_hold(ways);
@@ -379,14 +377,8 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   bearing.clearance =
       read_clearance(table, source, name.clearance, derived, bearing.doubt);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
-  if (table.has("defect")) {
-    StrictToml defect = table.table("defect");
-    bearing.defect = read_defect(defect, bearing);
-  }
-  if (table.has("parallel")) {
-    StrictToml parallel = table.table("parallel");
-    bearing.parallel = read_parallel(parallel);
-  }
+  if (table.has("defect")) bearing.defect = read_defect(table.table("defect"), bearing);
+  if (table.has("parallel")) bearing.parallel = read_parallel(table.table("parallel"));
   if (!has_count || table.has("ball_diameter_m"))
     derived.insert(derived.begin(),
                    format("%s: D = %.15g m, d_m = %.15g m",

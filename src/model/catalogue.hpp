@@ -37,7 +37,7 @@ extern const Ways clearance_ways, own_stiffness_ways;
 
 /** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`,
     lines for headers. Throws BadInput for a value given in two ways, or in none. */
-Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived);
+Bearing read_bearing(StrictToml table, std::vector<std::string>& derived);
 
 /** Events per turn of the inner ring, the contacts rolling. */
 struct KinematicOrders {

@@ -17,7 +17,6 @@ Functions of lanes are `IN_PLACE`, a part of the function that is compiled for t
 registers at hand. */
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
@@ -43,16 +42,11 @@ inline Registers registers_of_processor()
   return Registers::plain;
 }
 
+/** Those in use, which tests narrow. */
 inline Registers& widest_registers()
 {
   static Registers widest = registers_of_processor();
   return widest;
-}
-
-/** For tests: at most these are used from now on. */
-inline void use_registers(Registers widest)
-{
-  widest_registers() = std::min(widest, registers_of_processor());
 }
 
 #ifdef HAS_WIDE_REGISTERS

@@ -82,10 +82,8 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
         const double cage =
             joint.cage_phase + angular(1) * k / std::max(joint.balls, 1) / angles;
         const auto [f, s] = bearing.reaction(Direction::of(cage), {u[at], u[at + 1]});
-        Eigen::Matrix2d one;
-        one << s.xx, s.xy, s.yx, s.yy;
         force.segment<2>(at) += Eigen::Vector2d(f.x, f.y) / angles;
-        slope.block<2, 2>(at, at) += one / angles;
+        slope.block<2, 2>(at, at) += s.matrix() / angles;
       }
       at += 2;
     }
@@ -123,8 +121,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
 
 LargeBodies matrices_of(const Parameters& parameters)
 {
-  if (const auto* large = dynamic_cast<const MatrixMachine*>(parameters.bodies.get()))
-    return large->bodies();
+  if (const LargeBodies* own = parameters.bodies->matrices()) return *own;
   Body stator = parameters.stator;
   if (stator.rigid) stator.mass = 1;  // which nothing moves
   const double g = parameters.gravity;
@@ -185,9 +182,8 @@ double MatrixMachine::quickest_contact(const Parameters& parameters) const
 {
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bodies_.mass);
   double most = 0;
-  for (std::size_t b = 0; b < joints_of(parameters).size(); ++b)
+  for (const auto& at : bodies_.places)
     for (const int axis : {0, 1}) {
-      const auto& at = bodies_.places[b];
       Eigen::VectorXd apart = Eigen::VectorXd::Zero(bodies_.mass.rows());
       if (const int rotor = at[2 + axis]; rotor >= 0) apart[rotor] += 1;
       if (const int stator = at[axis]; stator >= 0 && !parameters.stator.rigid)
@@ -313,8 +309,7 @@ LargeBodies Assembly::assembled(double spring) const
                       .unbalance = unbalance(order),
                       .spring = spring,
                       .shown = shown,
-                      .places = places,
-                      .outputs = {}};
+                      .places = places};
   for (auto& place : machine.places)
     for (int& dof : place)
       if (dof >= 0) dof = place_of[dof];

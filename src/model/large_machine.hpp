@@ -42,7 +42,7 @@ struct LargeBodies {
   /** Of x_s, y_s, x_r, y_r at each joint; -1, -1 and x, y of a body at the ground. */
   std::vector<std::array<int, 4>> places;
   /** Further columns, and their coordinates. */
-  std::vector<std::pair<std::string, int>> outputs;
+  std::vector<std::pair<std::string, int>> outputs = {};
   std::vector<std::string> reductions = {};  ///< lines for headers
   double reduction_error = 0;                ///< of their receptances, relative
   double reduced_to = std::numeric_limits<double>::infinity();  ///< Ω [rad/s], at most
@@ -87,16 +87,13 @@ LargeBodies matrices_of(const Parameters& parameters);
 /** Where the joints carry the constant loads: the derivative of their mean forces over
     the cage's angles, 2b × 2b [N/m]; what is beside the balls at a speed [rad/s]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeBodies& machine,
-                                       double rotor_speed = 0);
+                                       const LargeBodies& machine, double rotor_speed);
 
 /** A machine whose harmonics are those of its matrices; in time Eq. 7: two masses with
     elements to the ground, for which the two unknowns of the bearing are not enough. */
 class MatrixMachine : public Machine {
 public:
   explicit MatrixMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}
-
-  const LargeBodies& bodies() const { return bodies_; }
 
   State at_rest(const Parameters& parameters, Direction cage) const override;
   State static_start(const Parameters& parameters) const override;
@@ -120,11 +117,7 @@ public:
     return bodies_.outputs;
   }
   std::array<int, 4> places(std::size_t k) const override { return bodies_.places[k]; }
-  SparseMatrix nodes() const override { return bodies_.nodes; }
-  std::vector<std::pair<int, int>> bearing_nodes() const override
-  {
-    return bodies_.bearing_nodes;
-  }
+  const LargeBodies* matrices() const override { return &bodies_; }
 
 protected:
   LargeBodies bodies_;

@@ -10,7 +10,7 @@ balance/.
     std::unique_ptr<Flow> flow = parameters.bodies->flow(parameters, omega, settings); */
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <string>
@@ -21,6 +21,7 @@ namespace rotor_stator {
 
 struct Parameters;
 struct State;
+struct LargeBodies;
 template <class Number>
 struct DirectionOf;
 class Table;
@@ -122,9 +123,8 @@ public:
   /** The places of x_s, y_s, x_r, y_r at joint k, bearings first; of the ground -1. */
   virtual std::array<int, 4> places(std::size_t /*k*/) const { return {0, 1, 2, 3}; }
 
-  /** x and y of the nodes asked for, over all coordinates; those where bearings stand. */
-  virtual Eigen::SparseMatrix<double> nodes() const { return {}; }
-  virtual std::vector<std::pair<int, int>> bearing_nodes() const { return {}; }
+  /** Its matrices, where its harmonics are those of matrices. */
+  virtual const LargeBodies* matrices() const { return nullptr; }
 };
 
 }  // namespace rotor_stator

@@ -58,7 +58,7 @@ double largest_of(const ParallelElements& elements,
 
 }  // namespace
 
-ParallelElements read_parallel(StrictToml& table)
+ParallelElements read_parallel(StrictToml table)
 {
   constexpr const char *cubic_key = "cubic_stiffness_N_per_m3",
                        *stop_key = "stop_stiffness_N_per_m", *gap_key = "stop_gap_m";

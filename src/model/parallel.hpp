@@ -32,6 +32,8 @@ namespace rotor_stator {
 /** ∂F/∂u [N/m] or ∂F/∂u̇ [N s/m]; of balls without damping symmetric. */
 struct Slopes2 {
   double xx, xy, yx, yy;
+
+  Eigen::Matrix2d matrix() const { return Eigen::Matrix2d{{xx, xy}, {yx, yy}}; }
 };
 
 /** Force on the stator [N] and its derivative. */
@@ -45,7 +47,7 @@ struct BearingReaction : ElasticReaction {
 };
 
 /** Throws BadInput with file, line and key. */
-ParallelElements read_parallel(StrictToml& table);
+ParallelElements read_parallel(StrictToml table);
 
 /** The `#` lines of what is there, which begin with `name`. */
 void describe_parallel(Table& table, const std::string& name,

@@ -130,8 +130,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
           bearing_key,
           "must be [bearing]; several are of bodies given by matrices, which explore "
           "shaft writes");
-    StrictToml bearing = root.table(bearing_key);
-    parameters.bearing = read_bearing(bearing, parameters.derived);
+    parameters.bearing = read_bearing(root.table(bearing_key), parameters.derived);
   }
   for (const Bearing& joint : joints_of(parameters))
     for (const Coefficients& at : joint.parallel.linear)

@@ -180,8 +180,7 @@ std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
 void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
 {
   if (!root.has_tables("bearing")) {
-    StrictToml table = root.table("bearing");
-    parameters.bearing = read_bearing(table, parameters.derived);
+    parameters.bearing = read_bearing(root.table("bearing"), parameters.derived);
     all.places = {read_place(nullptr, all)};
     return;
   }
@@ -205,10 +204,11 @@ void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
 }
 
 /** What stands between a body and the ground: one table, or several. */
-void read_grounds(StrictToml& table, LinearBody& body, int first, Parameters& parameters,
-                  Assembly& all)
+void read_grounds(StrictToml& table, int number, Parameters& parameters, Assembly& all)
 {
   if (!table.has(ground_key)) return;
+  const LinearBody& body = all.bodies[number];
+  const int first = all.first(number);
   std::vector<StrictToml> list;
   if (table.has_tables(ground_key))
     list = table.tables(ground_key);
@@ -281,8 +281,7 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   if (all.is_rigid && tables[0].has(ground_key))
     tables[0].fail(ground_key, "is for a body that moves, and this one is rigid");
   read_bearings(root, parameters, all);
-  for (int body : {0, 1})
-    read_grounds(tables[body], all.bodies[body], all.first(body), parameters, all);
+  for (int body : {0, 1}) read_grounds(tables[body], body, parameters, all);
   std::vector<std::pair<int, int>> bearing_nodes;
   if (asked.nodes && has_matrices[1]) {
     LinearBody& rotor = all.bodies[1];
@@ -295,8 +294,9 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   }
   /** The spring is that of a ball that carries all weights and loads, the stiffest. */
   const double loads = all.bodies[0].size_of_loads + all.bodies[1].size_of_loads;
-  double spring = 0;
+  double spring = 0, passages = 0;
   for (const Bearing& bearing : bearings_of(parameters)) {
+    passages = std::max(passages, passages_per_turn(bearing));
     const double k_h = bearing.contact_stiffness, n = bearing.exponent;
     const double load = std::max(loads, hertz_force(k_h, 1e-6, n));
     spring = std::max(spring, hertz_stiffness(k_h, hertz_penetration(k_h, load, n), n));
@@ -304,9 +304,6 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   parameters.unbalance = (all.bodies[0].unbalance.cwiseAbs().sum() +
                           all.bodies[1].unbalance.cwiseAbs().sum()) /
                          2;
-  double passages = 0;
-  for (const Bearing& bearing : bearings_of(parameters))
-    passages = std::max(passages, passages_per_turn(bearing));
   const double from = angular(0.9 * asked.from), to = angular(1.1 * asked.to);
   const ReductionRange range{from, to,
                              to * std::max(16 * passages, 1.0 * asked.harmonics), spring};

@@ -30,13 +30,6 @@ constexpr double most_memory = 12e9;  ///< [bytes] of the factors
 struct StaticFactors : Eigen::SimplicialLDLT<SparseMatrix> {
   explicit StaticFactors(const SparseMatrix& pattern) { analyzePattern(pattern); }
 
-  /** The degrees of freedom in that order. */
-  std::vector<int> order() const
-  {
-    const auto& indices = permutationPinv().indices();
-    return {indices.begin(), indices.end()};
-  }
-
   /** Those of the dynamic stiffness in this order. */
   double bytes() const
   {
@@ -44,12 +37,12 @@ struct StaticFactors : Eigen::SimplicialLDLT<SparseMatrix> {
   }
 };
 
-SparseMatrix reordered(const SparseMatrix& a, const std::vector<int>& order)
+using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+
+SparseMatrix reordered(const SparseMatrix& a, const Permutation& place)
 {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p(a.rows());
-  for (int i = 0; i < a.rows(); ++i) p.indices()[order[i]] = i;
   SparseMatrix mixed;
-  mixed = a.twistedBy(p);
+  mixed = a.twistedBy(place);
   const SparseMatrix sorted = mixed.transpose();  // twice is the same again, in order
   return sorted.transpose();
 }
@@ -73,30 +66,37 @@ Matrix product(const SparseMatrix& a, double sign, const Matrix& x)
   return y;
 }
 
-/** The body in an order of its own, held at its joints. */
+/** The body in an order of its own, held at its joints. Throws BadInput for what neither
+    K nor a bearing holds. */
 struct HeldBody {
   HeldBody(const LinearBody& body, std::span<const int> joints, double k_0) : spring_(k_0)
   {
     const SparseMatrix one =
         body.m.cwiseAbs() + body.k.cwiseAbs() + body.c.cwiseAbs() + body.g.cwiseAbs();
     StaticFactors factors(one);
-    order = factors.order();
+    place_ = factors.permutationP();
+    const auto& indices = factors.permutationPinv().indices();
+    order.assign(indices.begin(), indices.end());
     if (factors.bytes() > most_memory)
       throw BadInput(
           format("%s: the factors of its %d degrees of freedom would take %.0f GB",
                  body.name.c_str(), body.size(), 1e-9 * factors.bytes()));
-    m = reordered(body.m, order);
-    c = reordered(body.c, order);
-    g = reordered(body.g, order);
-    k = reordered(body.k, order);
-    place_.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place_[order[i]] = static_cast<int>(i);
+    m = reordered(body.m, place_);
+    c = reordered(body.c, place_);
+    g = reordered(body.g, place_);
+    k = reordered(body.k, place_);
     std::vector<Eigen::Triplet<double, int>> held;
     for (int dof : joints) held.emplace_back(dof, dof, 1);
     SparseMatrix joined(m.rows(), m.rows());
     joined.setFromTriplets(held.begin(), held.end());
-    require_held(factors, body.k + spring_ * joined, body.name);
-    held_ = reordered(joined, order);
+    const SparseMatrix supported = body.k + spring_ * joined;
+    factors.factorize(supported);
+    const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
+    constexpr double rounding = 1e-12;
+    for (Eigen::Index i = 0; i < pivots.size(); ++i)
+      if (!(pivots[i] > rounding * supported.coeff(order[i], order[i])))
+        throw BadInput(not_held(body.name, order[i]));
+    held_ = reordered(joined, place_);
     factors_.isSymmetric(true);
     factors_.setPivotThreshold(1e-3);
     factors_.analyzePattern(dynamic_stiffness(1, 1));
@@ -109,7 +109,7 @@ struct HeldBody {
   std::vector<int> rows(std::span<const int> dofs) const
   {
     std::vector<int> list;
-    for (int dof : dofs) list.push_back(place_[dof]);
+    for (int dof : dofs) list.push_back(place_.indices()[dof]);
     return list;
   }
 
@@ -142,20 +142,8 @@ struct HeldBody {
   }
 
 private:
-  /** Throws BadInput for what neither K nor a bearing holds. */
-  void require_held(StaticFactors& factors, const SparseMatrix& held,
-                    const std::string& who) const
-  {
-    factors.factorize(held);
-    const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
-    constexpr double rounding = 1e-12;
-    for (Eigen::Index i = 0; i < pivots.size(); ++i)
-      if (!(pivots[i] > rounding * held.coeff(order[i], order[i])))
-        throw BadInput(not_held(who, order[i]));
-  }
-
   double spring_;
-  std::vector<int> place_;  ///< of each degree of freedom
+  Permutation place_;  ///< of each degree of freedom
   SparseMatrix held_;
   Eigen::SparseLU<ComplexSparse, Eigen::NaturalOrdering<int>> factors_;
 };

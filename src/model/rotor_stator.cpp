@@ -8,30 +8,20 @@
 
 namespace rotor_stator {
 
-/** Eq. 7 of the machine at the base frequency `omega`. */
-static Equation7<double> equation_7(const Parameters& parameters, double omega)
+RotorStator::RotorStator(const Parameters& parameters, double omega)
+    : bearing_(parameters.bearing, omega, parameters.turns), omega_(omega)
 {
   const Body &s = parameters.stator, &r = parameters.rotor;
   const double speed = parameters.turns * omega;
-  const Vec2 rest_s = s.static_acceleration(parameters.gravity);
-  const Vec2 rest_r = r.static_acceleration(parameters.gravity);
-  return {.k_s = s.stiffness(),
-          .c_s = s.damping(),
-          .per_m_s = 1 / s.mass,
-          .k_r = r.stiffness(),
-          .c_r = r.damping(),
-          .per_m_r = 1 / r.mass,
-          .unbalance = parameters.unbalance * speed * speed,
-          .rest_s_x = rest_s.x,
-          .rest_s_y = rest_s.y,
-          .rest_r_x = rest_r.x,
-          .rest_r_y = rest_r.y};
-}
-
-RotorStator::RotorStator(const Parameters& parameters, double omega)
-    : bearing_(parameters.bearing, omega, parameters.turns), omega_(omega),
-      equation_(equation_7(parameters, omega))
-{
+  equation_ = {.k_s = s.stiffness(),
+               .c_s = s.damping(),
+               .per_m_s = 1 / s.mass,
+               .k_r = r.stiffness(),
+               .c_r = r.damping(),
+               .per_m_r = 1 / r.mass,
+               .unbalance = parameters.unbalance * speed * speed,
+               .rest = {s.static_acceleration(parameters.gravity),
+                        r.static_acceleration(parameters.gravity)}};
   for (std::size_t k = 0; k < parameters.grounds.size(); ++k) {
     const ParallelElements& elements = parameters.grounds[k].parallel;
     const std::array<int, 4> places =

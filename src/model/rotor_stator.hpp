@@ -71,9 +71,9 @@ inline void put(const Bodies& bodies, double* y)
     side: what does not change along a motion. */
 template <class Number>
 struct Equation7 {
-  Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;    ///< [N/m], [N s/m], [1/kg]
-  Number unbalance;                               ///< m_e e ω² [N]
-  Number rest_s_x, rest_s_y, rest_r_x, rest_r_y;  ///< static accelerations [m/s²]
+  Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;  ///< [N/m], [N s/m], [1/kg]
+  Number unbalance;                             ///< m_e e ω² [N]
+  BodiesOf<Number> rest;                        ///< static accelerations [m/s²]
 
   /** Accelerations [m/s²] for the bearing's force `f` [N] on the stator. */
   IN_PLACE BodiesOf<Number> acceleration(const BodiesOf<Number>& q,
@@ -81,12 +81,12 @@ struct Equation7 {
                                          DirectionOf<Number> rotor,
                                          Vec2Of<Number> f) const
   {
-    return {{(f.x - c_s * v.stator.x - k_s * q.stator.x) * per_m_s + rest_s_x,
-             (f.y - c_s * v.stator.y - k_s * q.stator.y) * per_m_s + rest_s_y},
+    return {{(f.x - c_s * v.stator.x - k_s * q.stator.x) * per_m_s + rest.stator.x,
+             (f.y - c_s * v.stator.y - k_s * q.stator.y) * per_m_s + rest.stator.y},
             {(unbalance * rotor.cos - f.x - c_r * v.rotor.x - k_r * q.rotor.x) * per_m_r +
-                 rest_r_x,
+                 rest.rotor.x,
              (unbalance * rotor.sin - f.y - c_r * v.rotor.y - k_r * q.rotor.y) * per_m_r +
-                 rest_r_y}};
+                 rest.rotor.y}};
   }
 };
 

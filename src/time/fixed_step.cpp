@@ -9,7 +9,7 @@
 
 namespace rotor_stator {
 
-int steps_in_interval(double period, int intervals, double longest_step)
+static int steps_in_interval(double period, int intervals, double longest_step)
 {
   constexpr double most_steps_per_period = 3e7;
   const double steps = std::ceil(period / intervals / longest_step - 1e-9);

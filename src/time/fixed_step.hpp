@@ -50,10 +50,6 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
   v = v + h / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4);
 }
 
-/** The fewest steps per output interval, `intervals` to a `period` [s], that are not
-    longer than `longest_step` [s]. Throws NoSolution for more than 3e7 in a period. */
-int steps_in_interval(double period, int intervals, double longest_step);
-
 enum class Rule { rk4, splitting, central };
 
 /** The machine's constants, and its directions along one output interval. */

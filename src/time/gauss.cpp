@@ -53,19 +53,20 @@ GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& paramet
                            OperationBudget budget)
     : cages_(joints_of(parameters)), omega_(omega),
       turns_(parameters.turns * parameters.speed_ratio),
-      speed_(rotor_speed(parameters, omega)), length_(scales(parameters).length),
+      length_(scales(parameters).length),
       interval_(2 * std::numbers::pi / omega / intervals),
       tolerance_(std::max(tolerance, 2e-14)), budget_(std::move(budget))
 {
+  const double speed = rotor_speed(parameters, omega);
   const double quarter = 0.5 * std::numbers::pi / contact_frequency(parameters);
   first_ = now_ =
       std::clamp(static_cast<int>(std::ceil(std::log2(interval_ / quarter))), 0, 40);
   mass_ = machine.mass.sparseView();
-  damping_ = (machine.damping + speed_ * machine.gyroscopic).sparseView();
+  damping_ = (machine.damping + speed * machine.gyroscopic).sparseView();
   stiffness_ = machine.stiffness.sparseView();
   joints_ = machine.joints.sparseView();
   rest_ = machine.load;
-  unbalance_ = speed_ * speed_ * machine.unbalance;
+  unbalance_ = speed * speed * machine.unbalance;
   double balls = 0;
   bool is_smooth = true;
   for (const Bearing& joint : cages_) {
@@ -146,10 +147,9 @@ GaussStepper::Seen GaussStepper::reaction(const double* phases, const Seen& seen
           : cages_[b].balls > 0 ? forces_[b].angles(phases[stage])
                                 : Angles{{1, 0}, {1, 0}};
       const BearingReaction pressed = forces_[b].reaction(at, u, rate);
-      const auto &s = pressed.stiffness, &c = pressed.damping;
       force.segment<2>(k) << pressed.force.x, pressed.force.y;
-      slopes.block<2, 2>(k, k) << s.xx, s.xy, s.yx, s.yy;
-      if (is_damped_) slopes.block<2, 2>(k, both + k) << c.xx, c.xy, c.yx, c.yy;
+      slopes.block<2, 2>(k, k) = pressed.stiffness.matrix();
+      if (is_damped_) slopes.block<2, 2>(k, both + k) = pressed.damping.matrix();
     }
   evaluations_ += 2;
   return force;
@@ -355,13 +355,12 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
   const int intervals = settings.intervals_per_period;
   GaussStepper state(bodies_, parameters, omega, intervals, settings.tolerance,
                      settings.budget);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(interval, map.end);
+  State end = start;
+  state.advance(interval, end);
   GaussStepper varied(bodies_, parameters, omega, intervals, coarser * settings.tolerance,
                       settings.budget);
-  map.derivative = varied.derivative(interval, start);
-  map.evaluations = state.evaluations() + varied.evaluations();
-  return map;
+  const Eigen::MatrixXd derivative = varied.derivative(interval, start);
+  return {end, derivative, state.evaluations() + varied.evaluations()};
 }
 
 }  // namespace rotor_stator

@@ -80,7 +80,7 @@ private:
   std::vector<BallBearing> forces_;  ///< of the joints
   std::vector<Bearing> cages_;
   bool is_damped_ = false;
-  double omega_, turns_, speed_, length_, interval_, tolerance_;  ///< interval_ [s]
+  double omega_, turns_, length_, interval_, tolerance_;  ///< interval_ [s]
   double last_change_;  ///< of u in Newton, beyond which the force is taken as linear [m]
   SparseMatrix mass_, damping_, stiffness_, joints_;
   Eigen::VectorXd rest_;

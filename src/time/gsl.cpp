@@ -35,8 +35,7 @@ void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
   const auto [f, s] = system.bearing().reaction(at.cage, u);
 
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-  Eigen::Matrix2d joint;
-  joint << s.xx, s.xy, s.xy, s.yy;
+  const Eigen::Matrix2d joint = s.matrix();
   Eigen::Map<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>> slopes(dfdy);
   slopes.setZero();
   slopes.topRightCorner<4, 4>().setIdentity();

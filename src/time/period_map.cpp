@@ -36,12 +36,11 @@ public:
   Disturbances acceleration(const BearingReaction& bearing, const Disturbances& q,
                             const Disturbances& v) const
   {
-    using Eight = Eigen::Matrix<double, 8, 1>;
-    const Eight u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
+    const Vector8 u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
     const Slopes2& s = bearing.stiffness;
-    Eight force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
+    Vector8 force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
     if (is_damped_) {
-      const Eight w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
+      const Vector8 w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
       const Slopes2& d = bearing.damping;
       force[0] += d.xx * w_x + d.xy * w_y;
       force[1] += d.yx * w_x + d.yy * w_y;
@@ -75,8 +74,8 @@ Varied operator*(double s, const Varied& a)
 
 /** The derivative is that of the map as it is computed: each stage of the variational
     equations takes the bearing's stiffness at the same stage of the state. */
-void by_rk4(const Parameters& parameters, double omega, const StepSettings& settings,
-            long interval, PeriodMap& map)
+PeriodMap by_rk4(const Parameters& parameters, double omega, const State& start,
+                 const StepSettings& settings, long interval)
 {
   constexpr double price = 3;  ///< of an evaluation with eight disturbances
   const double longest = settings.step > 0 ? settings.step : step_at(parameters, omega);
@@ -84,8 +83,8 @@ void by_rk4(const Parameters& parameters, double omega, const StepSettings& sett
                       Rule::rk4);
   const RotorStator system(parameters, omega);
   const DisturbanceRates rates(parameters);
-  map.evaluations = 4L * rk4.steps_per_interval();
-  settings.budget.spend(price * static_cast<double>(map.evaluations));
+  const long evaluations = 4L * rk4.steps_per_interval();
+  settings.budget.spend(price * static_cast<double>(evaluations));
   const auto acceleration = [&](const Varied& q, const Varied& v,
                                 const Angles& at) -> Varied {
     const BearingReaction bearing =
@@ -93,15 +92,15 @@ void by_rk4(const Parameters& parameters, double omega, const StepSettings& sett
     return {system.acceleration(q.bodies, v.bodies, at.rotor, bearing.force),
             rates.acceleration(bearing, q.disturbances, v.disturbances)};
   };
-  Varied q{map.end.position, Disturbances::Identity()},
-      v{map.end.velocity, Disturbances::Zero()};
+  Varied q{start.position, Disturbances::Identity()},
+      v{start.velocity, Disturbances::Zero()};
   v.disturbances.bottomRows<4>().setIdentity();
   rk4.each_step(interval, [&](const Angles* at) {
     nystrom_step(rk4.step(), at, q, v, acceleration);
   });
-  map.end = {q.bodies, v.bodies};
-  map.derivative.resize(8, 8);
-  map.derivative << q.disturbances.transpose(), v.disturbances.transpose();
+  Matrix8 derivative;
+  derivative << q.disturbances.transpose(), v.disturbances.transpose();
+  return {{q.bodies, v.bodies}, derivative, evaluations};
 }
 
 }  // namespace
@@ -112,28 +111,23 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   if (with_derivative)
     return parameters.bodies->period_map(parameters, omega, start, settings, interval);
   const auto steps = flow(parameters, omega, settings);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  steps->advance(interval, map.end);
-  map.evaluations = steps->evaluations();
-  return map;
+  State end = start;
+  steps->advance(interval, end);
+  return {end, {}, steps->evaluations()};
 }
 
 PeriodMap Machine::period_map(const Parameters& parameters, double omega,
                               const State& start, const StepSettings& settings,
                               long interval) const
 {
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  if (settings.method == "rk4" && parameters.grounds.empty()) {
-    by_rk4(parameters, omega, settings, interval, map);
-    return map;
-  }
+  if (settings.method == "rk4" && parameters.grounds.empty())
+    return by_rk4(parameters, omega, start, settings, interval);
   Rk8 rk8(parameters, omega, settings.intervals_per_period, settings.tolerance,
           settings.budget);
+  State end = start;
   Matrix8 derivative = Matrix8::Identity();
-  rk8.advance(interval, map.end, derivative);
-  map.derivative = derivative;
-  map.evaluations = rk8.evaluations();
-  return map;
+  rk8.advance(interval, end, derivative);
+  return {end, derivative, rk8.evaluations()};
 }
 
 Multipliers multipliers_of(const Eigen::MatrixXd& phi)

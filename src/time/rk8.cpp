@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "io/errors.hpp"
 #include "time/fixed_step.hpp"
@@ -53,18 +52,15 @@ static constexpr double caution = 5;
 /** All that the stages of a step need. */
 template <int rows>
 struct Rk8::Step {
-  const BallBearing* bearing;
-  std::span<const Ground> grounds;
+  const Rk8* flow;
   BallRing balls;
   ContactLaw<double> law;
-  bool is_damped;
   Quad k, c, per_m, rest;  ///< of x_s, y_s, x_r and y_r
   double unbalance;
   Quad per_size_q, per_size_v;
 
   double h;
   Angles begin;
-  const Turning *rotor, *cage, *spin;
 
   Rows<rows> q, v;  ///< before the step
   Rows<rows> q_next, v_next;
@@ -92,7 +88,7 @@ struct Rk8::Step {
       const Quad u_x = q_now[half + 4] - q_now[half];
       const Quad u_y = q_now[half + 6] - q_now[half + 2];
       Quad f_x = s.xx * u_x + s.xy * u_y, f_y = s.yx * u_x + s.yy * u_y;
-      if (is_damped) {
+      if (flow->is_damped_) {
         const Quad w_x = v_now[half + 4] - v_now[half];
         const Quad w_y = v_now[half + 6] - v_now[half + 2];
         f_x = f_x + (d.xx * w_x + d.xy * w_y);
@@ -109,7 +105,7 @@ struct Rk8::Step {
   /** Takes off what the elements to the ground do, in a machine that has some. */
   void hold(const Rows<rows>& q_now, const Rows<rows>& v_now, Rows<rows>& a) const
   {
-    for (const Ground& one : grounds) {
+    for (const Ground& one : flow->system_.grounds()) {
       const int x = one.is_rotor ? 2 : 0, y = x + 1;
       const BearingReaction now =
           one.element.reaction({q_now[0][x], q_now[0][y]}, {v_now[0][x], v_now[0][y]});
@@ -130,16 +126,18 @@ struct Rk8::Step {
   IN_PLACE void accelerate(int stage, const Rows<rows>& q_now, const Rows<rows>& v_now,
                            Rows<rows>& a) const
   {
-    Angles at{turned(begin.rotor, rotor->at(stage)), turned(begin.cage, cage->at(stage))};
+    const BallBearing& bearing = flow->system_.bearing();
+    Angles at{turned(begin.rotor, flow->rotor_.at(stage)),
+              turned(begin.cage, flow->cage_.at(stage))};
     const Vec2 u{q_now[0][2] - q_now[0][0], q_now[0][3] - q_now[0][1]};
     const Vec2 w{v_now[0][2] - v_now[0][0], v_now[0][3] - v_now[0][1]};
-    if constexpr (kind == Kind::any) at.spin = turned(begin.spin, spin->at(stage));
+    if constexpr (kind == Kind::any) at.spin = turned(begin.spin, flow->spin_.at(stage));
     if constexpr (rows == with_derivative) {
-      const BearingReaction now = bearing->reaction(at, u, w);
+      const BearingReaction now = bearing.reaction(at, u, w);
       a[0] = accelerate(q_now[0], v_now[0], at.rotor, now.force);
       accelerate_disturbances(now, q_now, v_now, a);
     } else if constexpr (kind == Kind::any) {
-      a[0] = accelerate(q_now[0], v_now[0], at.rotor, bearing->force(at, u, w));
+      a[0] = accelerate(q_now[0], v_now[0], at.rotor, bearing.force(at, u, w));
     } else {
       constexpr bool damped = kind == Kind::damped;
       a[0] = accelerate(q_now[0], v_now[0], at.rotor,
@@ -253,26 +251,19 @@ Rk8::Step<rows> Rk8::first_step(const State& state) const
 {
   const Equation7<double>& e = system_.equation();
   Step<rows> step{};
-  step.bearing = &system_.bearing();
-  step.grounds = system_.grounds();
+  step.flow = this;
   step.balls = system_.bearing().ring();
   step.law = system_.bearing().law();
-  step.is_damped = is_damped_;
   step.k = quad(e.k_s, e.k_r);
   step.c = quad(e.c_s, e.c_r);
   step.per_m = quad(e.per_m_s, e.per_m_r);
-  step.rest = Quad{e.rest_s_x, e.rest_s_y, e.rest_r_x, e.rest_r_y};
+  step.rest = std::bit_cast<Quad>(e.rest);
   step.unbalance = e.unbalance;
-  step.rotor = &rotor_;
-  step.cage = &cage_;
-  step.spin = &spin_;
-  const Displacements q = displacements(state.position),
-                      v = displacements(state.velocity);
+  step.q[0] = std::bit_cast<Quad>(state.position);
+  step.v[0] = std::bit_cast<Quad>(state.velocity);
   for (int i = 0; i < 4; ++i) {
     step.per_size_q[i] = per_size_[i];
     step.per_size_v[i] = per_size_[4 + i];
-    step.q[0][i] = q[i];
-    step.v[0][i] = v[i];
   }
   return step;
 }

@@ -21,10 +21,10 @@ double extent(std::span<const Displacements> section, std::size_t apart)
   return widest;
 }
 
-int closing_period(std::span<const Displacements> section, double closed, int most)
+int closing_period(std::span<const Displacements> section, double closed)
 {
   constexpr std::size_t fewest = 9;
-  for (std::size_t k = 1; k <= static_cast<std::size_t>(most); ++k) {
+  for (std::size_t k = 1; k <= most_period; ++k) {
     const std::size_t window = std::max(fewest, 3 * k + 1);
     if (section.size() < window) break;
     if (extent(section.last(window), k) < closed) return static_cast<int>(k);

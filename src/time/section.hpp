@@ -20,9 +20,8 @@ inline constexpr int most_period = 16;
 
 /** The fewest base periods K after which a section closes: of its last 3K + 1
     points, at least nine, those K apart are nearer than `closed` [m]. 0: none up to
-    `most`. */
-int closing_period(std::span<const Displacements> section, double closed,
-                   int most = most_period);
+    `most_period`. */
+int closing_period(std::span<const Displacements> section, double closed);
 
 /** The mean of a series and its standard error: that of the means of a few long batches
     of neighbours, which know little of each other. */

@@ -270,14 +270,6 @@ bool Settling::wobble_is_resolved()
   return most <= largest_share * width;
 }
 
-/** What steps of RK4, or the longer ones of the splitting, change at most in a growth
-    rate [1/s] of what turns with the base period. */
-static double error_of_rate(double step, double period)
-{
-  const double angle = 2 * std::numbers::pi * step / period;
-  return std::pow(angle, 5) / 120 / step;
-}
-
 /** Whether the pair has forgotten where it came from. A motion that was chaotic before
     may be so again: its neighbours must meet twice as closely, if there is time. */
 bool Settling::is_over() const
@@ -296,7 +288,10 @@ Settled Settling::seen() const
             .step = rule_.step,
             .before = pair_.since(nearer),
             .seconds = pair_.seconds()};
-  s.doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
+  /** What steps of RK4, or the longer ones of the splitting, change at most in the rate
+      of what turns with the base period. */
+  const double angle = 2 * std::numbers::pi * rule_.step / pair_.period();
+  s.doubt = 3 * s.lyapunov.error + std::pow(angle, 5) / 120 / rule_.step;
   const double rate = s.lyapunov.value, doubt = s.doubt;
   const bool is_long = s.seconds > rule_.longest / 2;
   constexpr double least = 0.01;  // ln of a contraction that is one

@@ -35,11 +35,11 @@ public:
     start_ = y_;
   }
 
-  Shooting run(std::vector<State>& motion, PeriodicityJacobian* kept)
+  Shooting run(std::vector<State>& motion, Eigen::MatrixXd* kept)
   {
     try {
-      if (kept && *kept) {
-        jacobian_ = **kept;
+      if (kept && kept->size() > 0) {
+        jacobian_ = *kept;
         factors_.compute(jacobian_);
         is_fresh_ = false;
         at_ = map(y_, false);
@@ -202,16 +202,17 @@ private:
 }  // namespace
 
 Shooting shoot(const Parameters& parameters, double omega, Eighths& motion,
-               const ShootingSettings& settings, PeriodicityJacobian* jacobian)
+               const ShootingSettings& settings)
 {
-  return Iteration(parameters, omega, motion, settings).run(motion, jacobian);
+  return Iteration(parameters, omega, motion, settings).run(motion, nullptr);
 }
 
 Shooting shoot(const Parameters& parameters, double omega, State& state,
-               const ShootingSettings& settings, PeriodicityJacobian* jacobian)
+               const ShootingSettings& settings, Eigen::MatrixXd* jacobian)
 {
   Eighths motion{state};
-  const Shooting report = shoot(parameters, omega, motion, settings, jacobian);
+  const Shooting report =
+      Iteration(parameters, omega, motion, settings).run(motion, jacobian);
   state = motion.front();
   return report;
 }

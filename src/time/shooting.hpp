@@ -53,19 +53,16 @@ struct Shooting {
   std::string reason{};          ///< why it was not closed
 };
 
-/** Φ - 1 in units of the sizes, as the last iteration left it. */
-using PeriodicityJacobian = std::optional<Eigen::MatrixXd>;
-
 /** `motion` becomes the closed motion. Of large machines one state alone is iterated: the
-    equations for eight would be too many. With `jacobian`, the iteration starts from what
-    it holds, if anything, and leaves its own there. */
+    equations for eight would be too many. */
 Shooting shoot(const Parameters& parameters, double omega, Eighths& motion,
-               const ShootingSettings& settings, PeriodicityJacobian* jacobian = nullptr);
+               const ShootingSettings& settings);
 
-/** From `state` at phase 0. */
+/** From `state` at phase 0. With `jacobian`, Φ - 1 in units of the sizes, the iteration
+    starts from what it holds, if anything, and leaves its own there. */
 Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings = {},
-               PeriodicityJacobian* jacobian = nullptr);
+               Eigen::MatrixXd* jacobian = nullptr);
 
 /** A start: the state at phase 0 of the motion in which the bearing answers the force of
     the rigid joint at every instant and the stator follows its harmonic response. */

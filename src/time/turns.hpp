@@ -43,7 +43,7 @@ private:
   {
     constexpr double turn = 2 * std::numbers::pi;
     return {Direction::of(turn * of_rotor), Direction::of(turn * of_cage),
-            of_spin > 0 ? Direction::of(turn * of_spin) : Direction{1, 0}};
+            of_spin != 0 ? Direction::of(turn * of_spin) : Direction{1, 0}};
   }
 };
 

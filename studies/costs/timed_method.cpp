@@ -389,7 +389,7 @@ class ShootingSweep : public Integration {
   {
     Integration::begin();
     predictor_ = {1, arc_length_settings(task_.parameters).speed_scale};
-    jacobian_.reset();
+    jacobian_.resize(0, 0);
     if (task_.before) learn(angular(task_.before->frequency), state_);
   }
 
@@ -404,7 +404,7 @@ class ShootingSweep : public Integration {
     }
     if (!found) {
       predictor_.clear();
-      jacobian_.reset();
+      jacobian_.resize(0, 0);
       state_ = quasi_static_state(task_.parameters, omega);
       advance(*stepper(speed, 1), schedule_.at(speed).transient, omega, state_);
       found = shot(speed);
@@ -436,7 +436,7 @@ class ShootingSweep : public Integration {
 
   const Vector8 scales_ = state_scales(task_.parameters);
   LagrangePredictor predictor_{1, 1};
-  PeriodicityJacobian jacobian_;
+  Eigen::MatrixXd jacobian_;
 };
 
 /** All speeds side by side, each from quasi-static contact. */

@@ -62,6 +62,12 @@ Parameters set_1();
 /** 2π times a frequency. */
 double hertz(double frequency);
 
+/** At most these registers are used from now on. */
+inline void use_registers(Registers widest)
+{
+  widest_registers() = std::min(widest, registers_of_processor());
+}
+
 /** Equally many numbers, each within a relative tolerance. */
 void check_same(const std::vector<double>& found, const std::vector<double>& known,
                 double tolerance);

@@ -33,8 +33,7 @@ Parameters set_1_by_matrices()
                   .unbalance = unbalance,
                   .spring = 3e7,
                   .shown = 4,
-                  .places = {{0, 1, 2, 3}},
-                  .outputs = {}});
+                  .places = {{0, 1, 2, 3}}});
   return p;
 }
 

@@ -4,6 +4,7 @@
 #include "time/fixed_step.hpp"
 #include "time/flow.hpp"
 #include "time/period_map.hpp"
+#include "time/turns.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -50,6 +51,17 @@ State settled(const Parameters& machine, double omega)
 }
 
 }  // namespace
+
+TEST_CASE("A damaged ball spins before t = 0 as it does after")
+{
+  const Parameters machine = damaged(0, Defect::Surface::ball);
+  for (double periods : {-7.0, 3.0}) {
+    const double angle = 2 * std::numbers::pi * machine.bearing.defect.spin;
+    const Direction spin = Turns::of(machine).at(periods, 0.25).spin;
+    CHECK(spin.cos == Approx(std::cos(angle * (periods + 0.25))).margin(1e-13));
+    CHECK(spin.sin == Approx(std::sin(angle * (periods + 0.25))).margin(1e-13));
+  }
+}
 
 /** Catches a wrong instant of a stage (order 1) and a wrong weight of an estimate, which
     would not shrink with the power 8. */

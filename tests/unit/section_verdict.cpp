@@ -68,7 +68,7 @@ TrajectoryPair observed(const Oscillator::Law& law, int steps, int periods)
 
 bool closes(const TrajectoryPair& motion)
 {
-  return closing_period(motion.section(), 1e-6, 16) > 0;
+  return closing_period(motion.section(), 1e-6) > 0;
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ TEST_CASE("The period of a section is the fewest points after which it closes")
   const double golden = (std::sqrt(5) - 1) / 2;
   const auto circle = [&](int n) { return std::cos(2 * std::numbers::pi * golden * n); };
   const auto period = [&](const std::function<double(int)>& f) {
-    return closing_period(section_of(f), closed, 16);
+    return closing_period(section_of(f), closed);
   };
   CHECK(period([](int) { return 0.3; }) == 1);
   CHECK(period([](int n) { return 1e-7 * (n % 7); }) == 1);
@@ -91,7 +91,7 @@ TEST_CASE("The period of a section is the fewest points after which it closes")
   CHECK(period([](int n) { return n % 17; }) == 0);
   /** A few points cannot show a long period. */
   const std::vector<Displacements> few{{0}, {1}, {0}, {1}, {0}};
-  CHECK(closing_period(few, 0.1, 16) == 0);
+  CHECK(closing_period(few, 0.1) == 0);
 }
 
 TEST_CASE("The standard error of alternating rates shrinks with batches")
