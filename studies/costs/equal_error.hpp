@@ -56,8 +56,8 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<EqualErrorRow>& rows);
 
 /** The first of these settings, cheapest first, that reaches both errors of a balance.
-    Nothing is timed. Throws NoSolution when the balance failed at a periodic speed, or
-    when none reaches them. */
+    Throws NoSolution when the balance failed at a periodic speed, or when none reaches
+    them. */
 Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
                      const MotionError& target);
 

@@ -485,15 +485,6 @@ private:
   std::vector<long> evaluations_;
 };
 
-MotionError error_at(const TimedMethod& method, const References& sweep,
-                     std::size_t speed)
-{
-  const TrueMotion& truth = sweep.truths[speed];
-  if (!truth.periodic) return {};
-  return error_of(sweep.parameters, method.motion(speed, truth.motion.points_per_period),
-                  truth);
-}
-
 }  // namespace
 
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& schedule)
@@ -516,24 +507,15 @@ Measurement measure(const References& sweep, const Schedule& schedule, int repet
       method->run();
   });
   Measurement result{time, method->counts(), {}, schedule, repetitions, seconds};
-  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
-    result.errors.push_back(error_at(*method, sweep, speed));
-    result.include(result.errors.back());
+  for (std::size_t speed = 0; const TrueMotion& truth : sweep.truths) {
+    MotionError& error = result.errors.emplace_back();
+    if (truth.periodic)
+      error = error_of(sweep.parameters,
+                       method->motion(speed, truth.motion.points_per_period), truth);
+    result.include(error);
+    ++speed;
   }
   return result;
-}
-
-MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule)
-{
-  const auto method = timed_method(sweep, schedule);
-  MotionError error;
-  method->begin();
-  for (std::size_t k = 0; k < sweep.frequencies.size() && error.displacement <= bound;
-       ++k) {
-    method->solve(k);
-    error.include(error_at(*method, sweep, k));
-  }
-  return error;
 }
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)

@@ -142,10 +142,6 @@ struct Measurement : CpuTime, Counts, MotionError {
 
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions);
 
-/** The largest error over the speeds, as far as it is not above `bound`: the run ends at
-    the first speed that is. */
-MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule);
-
 /** p of y = a x^p by least squares of the logarithms; two points at least, all
     positive. */
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
