@@ -15,18 +15,17 @@ namespace rotor_stator::deviations {
 namespace {
 
 /** The solution of the plain equations, from the library's. */
-motion::Motion plain_solution(const DeviationScene& scene, double frequency,
-                              FirstEntry first)
+motion::Motion plain_solution(const DeviationScene& scene, double frequency, Form block)
 {
   const int m = scene.harmonics;
   PeriodicMotion solution = scene.solution(frequency);
   const PlainBalance balance(scene.machine, angular(frequency), m, default_samples(m),
-                             first);
+                             block);
   Eigen::VectorXd x = solution.bodies.reshaped();  // in the order of PlainBalance
   for (int k = 0; balance.residual(x).norm() > 1e-10 * balance.load().norm(); ++k) {
     if (k == 40)
       throw NoSolution(format("plain balance at %g Hz: no convergence", frequency));
-    x += balance.corrected_step(x);
+    x += balance.step(x);
   }
   solution.bodies = x.reshaped(4, 2 * m + 1);
   return scene.motion_of(solution);
@@ -53,8 +52,8 @@ EvidenceList printed_newton_step(const DeviationScene& scene)
   int done = 0;
   for (int iterations : table.integers("iterations", 1, 100)) {
     for (; done < iterations; ++done) {
-      printed += balance.printed_step(printed);
-      ours += balance.corrected_step(ours);
+      printed += balance.step(printed, Form::printed);
+      ours += balance.step(ours);
     }
     list.push_back({format("D-06.printed_%d", iterations), residual(printed), "-",
                     format("residual over the load after %d printed steps", iterations)});
@@ -74,8 +73,8 @@ EvidenceList printed_block(const DeviationScene& scene)
   EvidenceList list;
   for (double frequency : scene.table("block").numbers("speeds_hz", Range::positive)) {
     const motion::Motion truth = scene.integrated(frequency);
-    const motion::Motion printed = plain_solution(scene, frequency, FirstEntry::printed);
-    const motion::Motion ours = plain_solution(scene, frequency, FirstEntry::corrected);
+    const motion::Motion printed = plain_solution(scene, frequency, Form::printed);
+    const motion::Motion ours = plain_solution(scene, frequency, Form::corrected);
     const std::string at = format("_%gHz", frequency);
     add(list,
         {{"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
@@ -99,7 +98,7 @@ EvidenceList criteria_without_scale(const DeviationScene& scene)
   Eigen::VectorXd x = scene.solution(start_speed).bodies.reshaped();
   const PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
                              default_samples(scene.harmonics));
-  const Eigen::VectorXd step = balance.corrected_step(x);
+  const Eigen::VectorXd step = balance.step(x);
   x += step;
   const double penetration = scales(scene.machine).penetration;
   return {{"D-22.delta_1", balance.residual(x).norm(), "N", "Eq. 17 after one iteration"},
@@ -114,7 +113,7 @@ EvidenceList names_of_gamma(const DeviationScene& scene)
 {
   const int m = scene.harmonics, n = 2 * m + 1;
   const Eigen::MatrixXd series = scene.solution(scene.speed).bodies;
-  const Eigen::MatrixXd gamma = gamma_matrix(m, n, Argument::parenthesised);
+  const Eigen::MatrixXd gamma = gamma_matrix(m, n);
   const Eigen::MatrixXd truth = gamma_inverse(m, n) * series.transpose();
   const Eigen::MatrixXd as_text = gamma * series.transpose();
   return {{"D-04.speed", scene.speed, "Hz", "speed of the solution"},
@@ -187,17 +186,17 @@ EvidenceList parentheses_of_gamma(const DeviationScene& scene)
 {
   const int m = scene.harmonics, n = 2 * m + 1;
   const Eigen::MatrixXd inverse = gamma_inverse(m, n);
-  const auto defect = [&](Argument argument) {
-    const Eigen::MatrixXd product = gamma_matrix(m, n, argument) * inverse;
+  const auto defect = [&](Form form) {
+    const Eigen::MatrixXd product = gamma_matrix(m, n, form) * inverse;
     return (product - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
   };
   const Eigen::MatrixXd series = scene.solution(scene.speed).bodies;
   const Eigen::MatrixXd back =
-      gamma_matrix(m, n, Argument::printed) * inverse * series.transpose();
+      gamma_matrix(m, n, Form::printed) * inverse * series.transpose();
   return {
-      {"D-21.printed", defect(Argument::printed), "-",
+      {"D-21.printed", defect(Form::printed), "-",
        "largest entry of gamma times its inverse minus one, arguments as printed"},
-      {"D-21.ours", defect(Argument::parenthesised), "-", "the same with parentheses"},
+      {"D-21.ours", defect(Form::corrected), "-", "the same with parentheses"},
       {"D-21.back_printed", (back - series.transpose()).norm() / series.norm(), "-",
        "coefficients after one return trip to samples, as printed: relative distance"}};
 }

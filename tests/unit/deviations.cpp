@@ -105,13 +105,13 @@ TEST_CASE("D-04, D-21: gamma with parentheses inverts the samples, and only so")
 {
   for (int m : {1, 3, 6}) {
     const int n = 2 * m + 1;
-    const auto defect = [&](Argument argument) {
-      return (gamma_matrix(m, n, argument) * gamma_inverse(m, n) -
+    const auto defect = [&](Form form) {
+      return (gamma_matrix(m, n, form) * gamma_inverse(m, n) -
               Eigen::MatrixXd::Identity(n, n))
           .norm();
     };
-    CHECK(defect(Argument::parenthesised) < 1e-13);
-    CHECK(defect(Argument::printed) > 0.1);
+    CHECK(defect(Form::corrected) < 1e-13);
+    CHECK(defect(Form::printed) > 0.1);
   }
   CHECK(value(names_of_gamma(scene()), "D-04.error_text") > 0.5);
 }
@@ -132,13 +132,13 @@ TEST_CASE("The plain equations have the solution of the condensed ones")
   PlainBalance plain(p, hertz(30), 4, 32);
   const Eigen::VectorXd x = solution.bodies.reshaped();
   CHECK(plain.residual(x).norm() < 1e-6 * plain.load().norm());
-  CHECK(plain.corrected_step(x).norm() < 1e-8 * x.norm());
+  CHECK(plain.step(x).norm() < 1e-8 * x.norm());
 
   /** D-06: the printed step does not vanish there. */
-  CHECK(plain.printed_step(x).norm() > 1e-3 * x.norm());
+  CHECK(plain.step(x, Form::printed).norm() > 1e-3 * x.norm());
 
   /** D-12: nor is it a solution with the printed block, unless there is one harmonic. */
-  PlainBalance printed(p, hertz(30), 4, 32, FirstEntry::printed);
+  PlainBalance printed(p, hertz(30), 4, 32, Form::printed);
   CHECK(printed.residual(x).norm() > 1e-5 * printed.load().norm());
 }
 
