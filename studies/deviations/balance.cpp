@@ -12,10 +12,9 @@ too few samples fold onto them. */
 
 namespace rotor_stator::deviations {
 
-namespace {
-
 /** The solution of the plain equations, from the library's. */
-motion::Motion plain_solution(const DeviationScene& scene, double frequency, Form block)
+static motion::Motion plain_solution(const DeviationScene& scene, double frequency,
+                                     Form block)
 {
   const int m = scene.harmonics;
   PeriodicMotion solution = scene.solution(frequency);
@@ -30,8 +29,6 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency, For
   solution.bodies = x.reshaped(4, 2 * m + 1);
   return scene.motion_of(solution);
 }
-
-}  // namespace
 
 EvidenceList printed_newton_step(const DeviationScene& scene)
 {

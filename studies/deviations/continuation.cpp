@@ -12,19 +12,15 @@ Predictor, arc length, tolerance, step, cost. */
 
 namespace rotor_stator::deviations {
 
-namespace {
-
 /** The sweep of Fig. 3 with `harmonics` harmonics, at every step [Hz]. */
-std::vector<PeriodicMotion> sweep_at(const DeviationScene& scene, int harmonics,
-                                     double step)
+static std::vector<PeriodicMotion> sweep_at(const DeviationScene& scene, int harmonics,
+                                            double step)
 {
   std::vector<double> omegas;
   for (double f = scene.range.front(); f <= scene.range.back() + 1e-9; f += step)
     omegas.push_back(angular(f));
   return sweep(scene.machine, omegas, harmonics);
 }
-
-}  // namespace
 
 EvidenceList printed_predictor(const DeviationScene& scene)
 {

@@ -17,14 +17,10 @@ Amplitudes, cage, time integration, figures. */
 
 namespace rotor_stator::deviations {
 
-namespace {
-
-double harmonic(const Eigen::MatrixXd& series, int row, int h)
+static double harmonic(const Eigen::MatrixXd& series, int row, int h)
 {
   return std::hypot(series(row, 2 * h - 1), series(row, 2 * h));
 }
-
-}  // namespace
 
 EvidenceList amplitude_definitions(const DeviationScene& scene)
 {
