@@ -64,14 +64,10 @@ struct DeviationScene {
 
   int points() const { return time_integration.stepper.intervals_per_period; }  ///< P
 
-  /** One period of a solution, and the periods that an integration shows. */
-  motion::Motion motion_of(const PeriodicMotion& solution) const
+  /** One period of a solution, or the periods that an integration shows. */
+  motion::Motion motion_of(const auto& found) const
   {
-    return motion::motion_of(solution.bodies, points());
-  }
-  motion::Motion motion_of(const SteadyState& steady) const
-  {
-    return motion::motion_of(steady, points());
+    return motion::motion_of(found, points());
   }
 
   /** The steady state of a machine, and the motion on which the exchanged reading
