@@ -13,12 +13,10 @@ Contact, readings, masses. */
 
 namespace rotor_stator::deviations {
 
-namespace {
-
 /** The largest sag v [m] of the rotor below the stator, without contact, that both
    bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r),
    where the printed force pushes them further apart. */
-double largest_printed_sag(const Parameters& parameters)
+static double largest_printed_sag(const Parameters& parameters)
 {
   const double compliance =
       1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
@@ -30,15 +28,6 @@ double largest_printed_sag(const Parameters& parameters)
   }
   return largest;
 }
-
-double joint_resonance_hz(Parameters machine, double stator_mass, double rotor_mass)
-{
-  machine.stator.mass = stator_mass;
-  machine.rotor.mass = rotor_mass;
-  return joint_resonance(machine) / angular(1);
-}
-
-}  // namespace
 
 EvidenceList sign_of_approach(const DeviationScene& scene)
 {
@@ -110,16 +99,19 @@ EvidenceList two_readings(const DeviationScene& scene)
 {
   const double speed = scene.table("readings").number("speed_hz", Range::positive);
   const Parameters &ours = scene.machine, &printed = scene.printed;
+  const auto joint_hz = [](Parameters machine, const Parameters& masses) {
+    machine.stator.mass = masses.stator.mass;
+    machine.rotor.mass = masses.rotor.mass;
+    return joint_resonance(machine) / angular(1);
+  };
   EvidenceList list{
-      {"D-09.joint_exchanged", joint_resonance(ours) / angular(1), "Hz",
+      {"D-09.joint_exchanged", joint_hz(ours, ours), "Hz",
        "joint resonance, exchanged frequencies with their working masses"},
-      {"D-09.joint_printed", joint_resonance(printed) / angular(1), "Hz",
+      {"D-09.joint_printed", joint_hz(printed, printed), "Hz",
        "joint resonance, printed frequencies with their working masses"},
-      {"D-09.joint_printed_masses_exchanged",
-       joint_resonance_hz(printed, ours.stator.mass, ours.rotor.mass), "Hz",
+      {"D-09.joint_printed_masses_exchanged", joint_hz(printed, ours), "Hz",
        "joint resonance, printed frequencies with the masses of the exchanged reading"},
-      {"D-09.joint_exchanged_masses_printed",
-       joint_resonance_hz(ours, printed.stator.mass, printed.rotor.mass), "Hz",
+      {"D-09.joint_exchanged_masses_printed", joint_hz(ours, printed), "Hz",
        "joint resonance, exchanged frequencies with the masses of the printed reading"},
       {"D-09.stator_alone_exchanged", ours.stator.natural_frequency / angular(1), "Hz",
        "resonance of the stator alone, exchanged"},
@@ -133,8 +125,8 @@ EvidenceList two_readings(const DeviationScene& scene)
                          "share of the time with a loaded ball", *machine,
                          scene.motion_of(steady)));
     add(list, spread_of(format("D-09.spread_%s", name), steady));
-    const PeriodicMotion peak = require_periodic(
-        *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
+    const PeriodicMotion peak =
+        require_periodic(*machine, joint_hz(*machine, *machine), scene.harmonics);
     list.push_back({format("D-09.peak_%s", name),
                     1e3 * half_peak_to_peak(scene.motion_of(peak))[2], "mm",
                     "half peak-to-peak of x_r at the joint resonance"});
