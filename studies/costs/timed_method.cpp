@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <ranges>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
@@ -33,26 +34,21 @@ int Setting::sample_count() const
 
 std::string Schedule::text() const
 {
-  struct Part {
-    double (*of)(const Setting&);
-    const char *before, *after = "";
-  };
-  constexpr Part parts[] = {
-      {[](auto& s) { return static_cast<double>(s.harmonics); }, "m="},
-      {[](auto& s) { return static_cast<double>(s.samples_per_harmonic); }, "N>", "m"},
-      {[](auto& s) { return s.step; }, "step="},
-      {[](auto& s) { return s.tolerance; }, "tol="},
-      {[](auto& s) { return s.transient; }, "transient="},
-      {[](auto& s) { return s.periodicity_residual; }, "closure="}};
   std::string words;
-  for (const Part& part : parts) {
-    const auto [least, most] = std::ranges::minmax(settings_, {}, part.of);
-    if (part.of(most) <= 0) continue;
-    if (!words.empty()) words += " ";
-    words += part.before + format("%g", part.of(least));
-    if (part.of(least) < part.of(most)) words += format("..%g", part.of(most));
-    words += part.after;
-  }
+  const auto add = [&](const std::string& before, auto part, const char* after = "") {
+    const auto [least, most] =
+        std::ranges::minmax(std::views::transform(settings_, part));
+    if (most <= 0) return;
+    words += (words.empty() ? "" : " ") + before + format("%g", 1.0 * least);
+    if (least < most) words += format("..%g", 1.0 * most);
+    words += after;
+  };
+  add("m=", &Setting::harmonics);
+  add("N>", &Setting::samples_per_harmonic, "m");
+  add("step=", &Setting::step);
+  add("tol=", &Setting::tolerance);
+  add("transient=", &Setting::transient);
+  add("closure=", &Setting::periodicity_residual);
   return words;
 }
 
