@@ -30,7 +30,6 @@ ball. */
 #include <algorithm>
 #include <cmath>
 
-#include "balance/newton.hpp"
 #include "costs/equal_error.hpp"
 #include "io/program.hpp"
 
@@ -71,8 +70,7 @@ TimingScene read_timing(SceneFile& file)
     scene.balances.push_back({.method = "aft",
                               .harmonics = harmonics[k],
                               .samples = samples[k],
-                              .paper_sweep = true,
-                              .tolerance = NewtonSettings{}.tolerance});
+                              .paper_sweep = true});
   }
   const int recorded = scene.truth.settling.stepper.intervals_per_period;
   const auto transients = toml.numbers("rk4_transients_s", Range::positive);

@@ -137,6 +137,12 @@ CpuTime time_of(int repetitions, const std::function<void()>& work)
   return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
 }
 
+void TimedMethod::begin()
+{
+  counts_ = {};
+  state_ = task_.before ? task_.before->state : static_start(task_.parameters);
+}
+
 void TimedMethod::run()
 {
   begin();
@@ -210,13 +216,11 @@ public:
   {
     Counts counts = counts_;
     for (const auto& [size, one] : balances_) {
-      const long samples = size.second, evaluations = one->balance.evaluations();
-      const long transforms =
+      const long evaluations = one->balance.evaluations();
+      counts.force_instants += evaluations * size.second;
+      counts.transforms +=
           4 * (evaluations + one->solver.factorisations() + one->solver.iterations());
-      counts.force_instants += evaluations * samples;
-      counts.transforms += transforms;
     }
-    counts.force_seconds = force_seconds_;
     return counts;
   }
 
@@ -228,23 +232,21 @@ private:
 
   void begin() override
   {
-    counts_ = {};
+    TimedMethod::begin();
     bodies_.assign(task_.frequencies.size(), {});
     balances_.clear();
-    force_seconds_ = 0;
-    state_ = task_.before ? task_.before->state : static_start(task_.parameters);
-    ArcLengthSettings settings = arc_length_settings(task_.parameters);
+    const ArcLengthSettings settings = arc_length_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) predictor_.add(before_, angular(task_.before->frequency));
     setting_ = schedule_.at(0);
     if (!setting_.paper_sweep) return;
     /** The paper's sweep goes over all speeds at once. */
-    settings.newton.tolerance = setting_.tolerance;
-    const auto found = sweep(
-        solved().balance, angular(task_.frequencies),
-        [&](double omega) { return contact(omega); }, settings);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k].found()) bodies_[k] = body_series(task_.parameters, found[k]);
+    const auto found = sweep(task_.parameters, angular(task_.frequencies),
+                             setting_.harmonics, setting_.sample_count());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      bodies_[k] = found[k].bodies;
+      counts_.force_instants += found[k].force_samples;
+    }
   }
 
   void solve(std::size_t speed) override
@@ -264,7 +266,7 @@ private:
     if (one) return *one;
     Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
     if (task_.profiled)
-      problem.force = [inner = problem.force, &seconds = force_seconds_](
+      problem.force = [inner = problem.force, &seconds = counts_.force_seconds](
                           const auto& q, auto&&... results) {
         const double start = thread_cpu_seconds();
         inner(q, results...);
@@ -323,10 +325,8 @@ private:
   Setting setting_;         ///< of the speed at hand
   Eigen::VectorXd before_;  ///< the solution that is known, if any
   std::map<std::pair<int, int>, std::unique_ptr<Solved>> balances_;  ///< by m and N
-  State state_;  ///< of the coarse integration, at phase 0
   LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
-  double force_seconds_ = 0;
 };
 
 /** Time integration and shooting end in a state at each speed; one period from it, by the
@@ -350,9 +350,8 @@ public:
 protected:
   void begin() override
   {
-    counts_ = {};
+    TimedMethod::begin();
     reached_.assign(task_.frequencies.size(), {});
-    state_ = task_.before ? task_.before->state : static_start(task_.parameters);
   }
 
   /** A transient at each speed. */
@@ -374,7 +373,6 @@ protected:
 
   /** A state of the motion at phase 0, so many periods after t = 0. */
   std::vector<std::optional<std::pair<long, State>>> reached_;
-  State state_;
 };
 
 /** Newton on the period map at each speed. */
