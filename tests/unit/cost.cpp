@@ -121,15 +121,8 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
   few.harmonics = 1;
   coarse.transient = 0.1;
   scene.candidates = {{"aft", {{few, aft}}}, {"rk4", {{coarse, rk4}}}};
-  const auto ranges = periodic_ranges(
+  const std::vector<EqualErrorRow> rows = at_equal_error(
       scene, true_motions(scene.parameters, scene.frequencies, scene.truth));
-  REQUIRE(ranges.size() == 1);
-  std::vector<EqualErrorRow> rows;
-  for (const Candidates& method : scene.candidates) {
-    const auto tried = try_settings(scene, ranges.front(), method);
-    for (double target : scene.targets)
-      rows.push_back(cheapest(scene, ranges.front(), tried, target, rows));
-  }
   REQUIRE(rows.size() == 4);
   CHECK(rows[0].ratio == 1);
   CHECK(rows[2].ratio == rows[2].median / rows[0].median);
