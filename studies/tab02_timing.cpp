@@ -121,11 +121,10 @@ const std::vector<Field<Row>> timing_fields{
      &Row::worst_frequency},
     {"paper_cpu", "-", "the paper's figure, unit not given", &Row::paper_cpu}};
 
-/** `rk4` at the errors of `balances`. */
-Table timing_table(const TimingScene& scene, const References& references,
-                   const std::vector<Measurement>& balances,
-                   const std::vector<Measurement>& rk4)
+Table timing_table(const TimingScene& scene)
 {
+  const References references =
+      true_motions(scene.parameters, scene.frequencies, scene.truth);
   Table table("CPU time of the same sweep at equal error (paper: section 3.3)",
               timing_fields);
   describe(table, scene.parameters);
@@ -134,11 +133,16 @@ Table timing_table(const TimingScene& scene, const References& references,
   table.value("to", scene.frequencies.back());
   table.value("repetitions", scene.repetitions);
   references.describe(table, scene.truth);
-  for (std::size_t k = 0; k < balances.size(); ++k) {
-    const int m = balances[k].schedule.at(0).harmonics;
-    const double ratio = rk4[k].median / balances[k].median;
-    table.row(timing_fields, {balances[k], m, ratio, scene.paper_cpu[k]});
-    table.row(timing_fields, {rk4[k], m, 1, scene.paper_cpu.back()});
+  for (std::size_t k = 0; k < scene.balances.size(); ++k) {
+    const auto measured = [&](const Setting& setting) {
+      return measure(references, setting, scene.repetitions);
+    };
+    const Measurement balance = measured(scene.balances[k]);
+    const Measurement rk4 = measured(cheapest_rk4(scene.rk4, references, balance));
+    const int m = scene.balances[k].harmonics;
+    table.row(timing_fields,
+              {balance, m, rk4.median / balance.median, scene.paper_cpu[k]});
+    table.row(timing_fields, {rk4, m, 1, scene.paper_cpu.back()});
   }
   return table;
 }
@@ -147,17 +151,6 @@ Table timing_table(const TimingScene& scene, const References& references,
 
 int main(int argc, char** argv)
 {
-  return run_figure(argc, argv, [](SceneFile& file) {
-    const TimingScene scene = read_timing(file);
-    const References references =
-        true_motions(scene.parameters, scene.frequencies, scene.truth);
-    std::vector<Measurement> balances, rk4;
-    for (const Setting& harmonics : scene.balances) {
-      balances.push_back(measure(references, harmonics, scene.repetitions));
-      rk4.push_back(measure(references,
-                            cheapest_rk4(scene.rk4, references, balances.back()),
-                            scene.repetitions));
-    }
-    return timing_table(scene, references, balances, rk4);
-  });
+  return run_figure(argc, argv,
+                    [](SceneFile& file) { return timing_table(read_timing(file)); });
 }
