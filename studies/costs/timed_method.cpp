@@ -3,6 +3,7 @@
 #include <time.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <ranges>
@@ -490,6 +491,22 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
   return std::make_unique<Integration>(task, schedule);
 }
 
+static MotionError error_of(const Parameters& parameters,
+                            const std::optional<motion::Motion>& motion,
+                            const TrueMotion& truth)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!motion) return {infinity, infinity, infinity};
+  /** Of a motion that has diverged it may be no number. */
+  const auto known = [&](double error) {
+    return std::isfinite(error) ? error : infinity;
+  };
+  return {.displacement = known(motion::relative_difference(*motion, truth.motion)),
+          .force =
+              known(motion::relative_force_difference(parameters, *motion, truth.motion)),
+          .mean = known(motion::rms_difference(*motion, truth.motion))};
+}
+
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions)
 {
   const auto method = timed_method(sweep, schedule);
@@ -506,7 +523,12 @@ Measurement measure(const References& sweep, const Schedule& schedule, int repet
     if (truth.periodic)
       error = error_of(sweep.parameters,
                        method->motion(speed, truth.motion.points_per_period), truth);
-    result.include(error);
+    if (error.displacement > result.displacement) {
+      result.displacement = error.displacement;
+      result.worst_frequency = truth.frequency;
+    }
+    result.force = std::max(result.force, error.force);
+    result.mean = std::max(result.mean, error.mean);
     ++speed;
   }
   return result;

@@ -134,6 +134,13 @@ protected:
 
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& schedule);
 
+/** The largest errors over some speeds [-]; infinite where one has no solution. */
+struct MotionError {
+  double displacement = 0, force = 0;  ///< largest difference over the largest value
+  double mean = 0;                     ///< of displacement, rms about the mean
+  double worst_frequency = 0;          ///< where the displacement is worst [Hz]
+};
+
 /** One method over all speeds of a sweep: what it costs, and how far off it is. */
 struct Measurement : CpuTime, Counts, MotionError {
   Schedule schedule;
