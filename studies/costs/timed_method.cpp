@@ -186,11 +186,11 @@ static long whole_periods(double seconds, double omega)
   return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi) - 1e-9));
 }
 
-long TimedMethod::advance(Flow& whole, double seconds, double omega, State& state)
+long TimedMethod::advance(Flow& whole, double seconds, double omega)
 {
   const long before = whole.evaluations();
   const long periods = whole_periods(seconds, omega);
-  for (long k = 0; k < periods; ++k) whole.advance(k, state);
+  for (long k = 0; k < periods; ++k) whole.advance(k, state_);
   counts_.force_instants += whole.evaluations() - before;
   return periods;
 }
@@ -291,15 +291,12 @@ private:
     if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
       return true;
     if (!predictor_.empty() && from(predictor_.at_speed(found.omega))) return true;
-    if (setting_.harmonics <= few && from(contact(found.omega))) return true;
+    if (setting_.harmonics <= few &&
+        from(quasi_static_start(task_.parameters, found.omega, setting_.harmonics)))
+      return true;
     for (double seconds : {0.5, 1.0, 2.0})
       if (from(integrated(found.omega, seconds))) return true;
     return false;
-  }
-
-  Eigen::VectorXd contact(double omega) const
-  {
-    return quasi_static_start(task_.parameters, omega, setting_.harmonics);
   }
 
   /** The period after so many seconds of RK4, with steps that are too long for a result
@@ -313,14 +310,14 @@ private:
       return flow(p, omega,
                   {.method = "rk4", .intervals_per_period = intervals, .step = step});
     };
-    advance(*rk4(1), seconds, omega, state_);
+    advance(*rk4(1), seconds, omega);
     const auto parts = rk4(points);
     const motion::Motion last = motion::recorded(*parts, points, state_);
     counts_.force_instants += parts->evaluations();
     if (vector_of(state_).allFinite())
       return motion::relative_series(p, last, setting_.harmonics);
     state_ = static_start(p);
-    return contact(omega);
+    return quasi_static_start(p, omega, setting_.harmonics);
   }
 
   Setting setting_;         ///< of the speed at hand
@@ -361,7 +358,7 @@ protected:
     const double omega = angular(task_.frequencies[speed]);
     const Setting& setting = schedule_.at(speed);
     try {
-      const long periods = advance(*stepper(speed, 1), setting.transient, omega, state_);
+      const long periods = advance(*stepper(speed, 1), setting.transient, omega);
       reached_[speed] = {periods, state_};
       if (setting.recorded == 0) return;
       const auto parts = stepper(speed, setting.recorded);
@@ -385,7 +382,7 @@ class ShootingSweep : public Integration {
     Integration::begin();
     predictor_ = {1, arc_length_settings(task_.parameters).speed_scale};
     jacobian_.resize(0, 0);
-    if (task_.before) learn(angular(task_.before->frequency), state_);
+    if (task_.before) learn(angular(task_.before->frequency));
   }
 
   void solve(std::size_t speed) override
@@ -393,19 +390,18 @@ class ShootingSweep : public Integration {
     const double omega = angular(task_.frequencies[speed]);
     bool found = false;
     if (!predictor_.empty()) {
-      const Vector8 x = predictor_.at_speed(omega).cwiseProduct(scales_);
-      state_ = state_of(x);
+      state_ = state_of(predictor_.at_speed(omega).cwiseProduct(scales_));
       found = shot(speed);
     }
     if (!found) {
       predictor_.clear();
       jacobian_.resize(0, 0);
       state_ = quasi_static_state(task_.parameters, omega);
-      advance(*stepper(speed, 1), schedule_.at(speed).transient, omega, state_);
+      advance(*stepper(speed, 1), schedule_.at(speed).transient, omega);
       found = shot(speed);
     }
     if (!found) return;
-    learn(omega, state_);
+    learn(omega);
     reached_[speed] = {0, state_};
   }
 
@@ -424,9 +420,9 @@ class ShootingSweep : public Integration {
     return result.converged;
   }
 
-  void learn(double omega, const State& state)
+  void learn(double omega)
   {
-    predictor_.add(vector_of(state).cwiseQuotient(scales_), omega);
+    predictor_.add(vector_of(state_).cwiseQuotient(scales_), omega);
   }
 
   const Vector8 scales_ = state_scales(task_.parameters);
@@ -442,22 +438,20 @@ public:
   void begin() override
   {
     Integration::begin();
-    evaluations_.clear();
+    flows_.clear();
     const std::size_t speeds = task_.frequencies.size();
-    std::vector<std::unique_ptr<Flow>> flows;
     std::vector<State> states(speeds);
     std::vector<Passage> passages;
     for (std::size_t k = 0; k < speeds; ++k) {
       const double omega = angular(task_.frequencies[k]);
       states[k] = quasi_static_state(task_.parameters, omega);
-      flows.push_back(stepper(k, 1));
-      passages.push_back({flows.back().get(), 0, &states[k],
+      flows_.push_back(stepper(k, 1));
+      passages.push_back({flows_.back().get(), 0, &states[k],
                           whole_periods(schedule_.at(k).transient, omega)});
     }
     const std::vector<Failure> failures = advance_together(passages);
     for (std::size_t k = 0; k < speeds; ++k) {
-      evaluations_.push_back(flows[k]->evaluations());
-      counts_.force_instants += evaluations_.back();
+      counts_.force_instants += flows_[k]->evaluations();
       reached_[k] = {passages[k].count, states[k]};
     }
     for (const Failure& failure : failures) reached_[failure.passage].reset();
@@ -471,13 +465,13 @@ public:
     const double whole = time_of(1, [&] { begin(); }).median;
     const auto all = static_cast<double>(std::max(1L, counts_.force_instants));
     std::vector<double> seconds;
-    for (long one : evaluations_)
-      seconds.push_back(whole * static_cast<double>(one) / all);
+    for (const auto& one : flows_)
+      seconds.push_back(whole * static_cast<double>(one->evaluations()) / all);
     return seconds;
   }
 
 private:
-  std::vector<long> evaluations_;
+  std::vector<std::unique_ptr<Flow>> flows_;
 };
 
 }  // namespace

@@ -122,9 +122,9 @@ protected:
   /** Of the time method at a speed. */
   std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
-  /** Integrates whole periods from phase 0, so many seconds at least. Returns their
-      number. */
-  long advance(Flow& whole, double seconds, double omega, State& state);
+  /** Integrates `state_` over whole periods from phase 0, so many seconds at least.
+      Returns their number. */
+  long advance(Flow& whole, double seconds, double omega);
 
   Task task_;
   Schedule schedule_;
