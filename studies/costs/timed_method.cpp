@@ -53,11 +53,9 @@ std::string Schedule::text() const
   return words;
 }
 
-namespace {
-
 /** A group for each number of harmonics and each start: which is cheaper depends on the
     speeds. */
-std::vector<SettingGroup> balances(StrictToml table)
+static std::vector<SettingGroup> balances(StrictToml table)
 {
   const auto transients = table.numbers("transients_s", Range::not_negative);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
@@ -78,7 +76,7 @@ std::vector<SettingGroup> balances(StrictToml table)
 }
 
 /** A group for each step or local error. */
-std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
+static std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
 {
   const Setting plain{.method = method};
   const bool fixed_step = has_fixed_step(plain.stepper()) || method == "central";
@@ -99,8 +97,6 @@ std::vector<SettingGroup> integrations(StrictToml table, const std::string& meth
   }
   return groups;
 }
-
-}  // namespace
 
 std::vector<Candidates> read_candidates(StrictToml& toml)
 {

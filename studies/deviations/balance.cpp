@@ -145,7 +145,7 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
           follow_branch(balance, from, angular(scene.range.back()),
                         quasi_static_start(scene.machine, from, m), settings);
       const motion::Motion motion =
-          scene.motion_of(require_periodic(scene.machine, scene.speed, m, n));
+          scene.motion_of(require_periodic({scene.machine, angular(scene.speed), m, n}));
       add(list, {{"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
                   "folds of the branch, " + with},
                  {"D-05.end" + where, branch.points.back().motion.omega / angular(1),
@@ -162,7 +162,7 @@ EvidenceList default_sample_count(const DeviationScene& scene)
   const int m = scene.harmonics;
   const int samples = scene.table("fine").integer("samples", 2 * m + 1, 1 << 20);
   const auto motion = [&](int n) {
-    return scene.motion_of(require_periodic(scene.machine, scene.speed, m, n));
+    return scene.motion_of(require_periodic({scene.machine, angular(scene.speed), m, n}));
   };
   const motion::Motion fine = motion(samples), truth = scene.integrated(scene.speed);
   const int n = default_samples(m);

@@ -91,8 +91,10 @@ EvidenceList tolerance_and_step(const DeviationScene& scene)
   EvidenceList list{{"D-15.tolerance", NewtonSettings{}.tolerance, "-", "ours, relative"},
                     {"D-15.speed", scene.speed, "Hz", "speed of the errors"}};
   const auto solution = [&](double tolerance) {
-    return require_periodic(scene.machine, scene.speed, scene.harmonics, 0,
-                            {.tolerance = tolerance})
+    return require_periodic({.parameters = scene.machine,
+                             .omega = angular(scene.speed),
+                             .harmonics = scene.harmonics,
+                             .newton = {.tolerance = tolerance}})
         .x;
   };
   const Eigen::VectorXd exact = solution(fine.number("tolerance", Range::positive));

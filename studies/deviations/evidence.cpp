@@ -23,16 +23,13 @@ DeviationScene read_deviation_scene(SceneFile& file)
           .time_integration = read_steady_settings(file)};
 }
 
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples,
-                                const NewtonSettings& settings)
+PeriodicMotion require_periodic(const BalanceSearch& search)
 {
-  const PeriodicMotion solution = motion::find_periodic(
-      {machine, angular(frequency), harmonics,
-       samples > 0 ? samples : default_samples(harmonics), settings});
+  const PeriodicMotion solution = motion::find_periodic(search);
   if (!solution.found())
-    throw NoSolution(format("%s: %d harmonics at %g Hz: %s", machine.file.c_str(),
-                            harmonics, frequency, solution.newton.reason().c_str()));
+    throw NoSolution(format("%s: %d harmonics at %g Hz: %s",
+                            search.parameters.file.c_str(), search.harmonics,
+                            search.omega / angular(1), solution.newton.reason().c_str()));
   return solution;
 }
 

@@ -8,7 +8,7 @@ or one closed form each. What only one entry asks for is read where it is used. 
 
 #include <functional>
 
-#include "balance/newton.hpp"
+#include "balance/find.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 #include "motion/motion.hpp"
@@ -24,11 +24,8 @@ struct Evidence {
 };
 using EvidenceList = std::vector<Evidence>;
 
-/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
-    NoSolution if there is none. */
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples = 0,
-                                const NewtonSettings& settings = {});
+/** The periodic solution. Throws NoSolution if there is none. */
+PeriodicMotion require_periodic(const BalanceSearch& search);
 
 struct DeviationScene {
   StrictToml toml;
@@ -59,7 +56,7 @@ struct DeviationScene {
   /** The periodic solution of the exchanged reading with m harmonics. */
   PeriodicMotion solution(double frequency) const
   {
-    return require_periodic(machine, frequency, harmonics);
+    return require_periodic({machine, angular(frequency), harmonics});
   }
 
   int points() const { return time_integration.stepper.intervals_per_period; }  ///< P

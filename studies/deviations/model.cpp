@@ -125,8 +125,8 @@ EvidenceList two_readings(const DeviationScene& scene)
                          "share of the time with a loaded ball", *machine,
                          scene.motion_of(steady)));
     add(list, spread_of(format("D-09.spread_%s", name), steady));
-    const PeriodicMotion peak =
-        require_periodic(*machine, joint_hz(*machine, *machine), scene.harmonics);
+    const PeriodicMotion peak = require_periodic(
+        {*machine, angular(joint_hz(*machine, *machine)), scene.harmonics});
     list.push_back({format("D-09.peak_%s", name),
                     1e3 * half_peak_to_peak(scene.motion_of(peak))[2], "mm",
                     "half peak-to-peak of x_r at the joint resonance"});

@@ -128,7 +128,7 @@ TEST_CASE("D-05: N = 13 for six harmonics has folds that N = 64 does not have")
 TEST_CASE("The plain equations have the solution of the condensed ones")
 {
   const Parameters p = set_1();
-  const auto solution = require_periodic(p, 30, 4, 32);
+  const auto solution = require_periodic({p, hertz(30), 4, 32});
   PlainBalance plain(p, hertz(30), 4, 32);
   const Eigen::VectorXd x = solution.bodies.reshaped();
   CHECK(plain.residual(x).norm() < 1e-6 * plain.load().norm());
@@ -146,7 +146,7 @@ TEST_CASE("The plain Jacobian is the slope of the plain residual")
 {
   const Parameters p = set_1();
   PlainBalance plain(p, hertz(12), 3, 32);
-  const Eigen::VectorXd x = require_periodic(p, 12, 3, 32).bodies.reshaped();
+  const Eigen::VectorXd x = require_periodic({p, hertz(12), 3, 32}).bodies.reshaped();
   const Eigen::MatrixXd jacobian = plain.at(x).jacobian;
   const double h = 1e-10;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
