@@ -39,25 +39,24 @@ using namespace rotor_stator;
 using namespace rotor_stator::costs;
 
 struct TimingScene {
-  Parameters parameters;
-  std::vector<double> frequencies;     ///< [Hz]
+  SceneFile file;
+  StrictToml toml = file.toml();
+  Parameters parameters = read_parameters(file, "parameters");
+  std::vector<double> frequencies = file.speed_range("speeds_hz");  // [Hz]
+  /** Printed for each balance, and for RK4 last; unit not given. */
+  std::vector<double> paper_cpu = toml.numbers("paper_cpu", Range::positive);
+  int repetitions = toml.integer("repetitions", 1, 1000);
+  TruthSettings truth{.settling = read_steady_settings(file),
+                      .tolerance = 1e-12,
+                      .periodicity_residual = 1e-9};
   std::vector<Setting> balances = {};  ///< m and N of harmonic balance
-  std::vector<double> paper_cpu;  ///< printed for each, and for RK4 last; unit not given
-  std::vector<Setting> rk4 = {};  ///< tried, those with the fewest steps first
-  int repetitions;
-  TruthSettings truth;
+  std::vector<Setting> rk4 = {};       ///< tried, those with the fewest steps first
 };
 
-TimingScene read_timing(SceneFile& file)
+TimingScene read_timing(const SceneFile& file)
 {
-  StrictToml& toml = file.toml();
-  TimingScene scene{.parameters = read_parameters(file, "parameters"),
-                    .frequencies = file.speed_range("speeds_hz"),
-                    .paper_cpu = toml.numbers("paper_cpu", Range::positive),
-                    .repetitions = toml.integer("repetitions", 1, 1000),
-                    .truth = {.settling = read_steady_settings(file),
-                              .tolerance = 1e-12,
-                              .periodicity_residual = 1e-9}};
+  TimingScene scene{file};
+  StrictToml& toml = scene.toml;
   const auto harmonics = toml.integers("harmonics", 1, 4096);
   const auto samples = toml.integers("samples", 3, 1 << 20);
   if (samples.size() != harmonics.size())

@@ -38,28 +38,25 @@ using namespace rotor_stator;
 using namespace rotor_stator::costs;
 
 struct WorkPrecisionScene {
-  std::vector<Parameters> sets;     ///< one for each speed
-  std::vector<double> frequencies;  ///< [Hz]
-  double below;                     ///< the known motion is that far below the speed [Hz]
-  std::vector<Candidates> candidates;
-  int repetitions;
-  double long_run;          ///< [s]: a run above it is repeated twice only
-  int reference_harmonics;  ///< of the second, independent reference
-  TruthSettings truth;
+  SceneFile file;
+  StrictToml toml = file.toml();
+  std::vector<Parameters> sets = read_parameter_list(file, "parameters");
+  /** [Hz]: one for each set, and how far below it the known motion is. */
+  std::vector<double> frequencies = toml.numbers("speeds_hz", Range::positive);
+  double below = toml.number("below_hz", Range::positive);
+  std::vector<Candidates> candidates = read_candidates(toml);
+  int repetitions = toml.integer("repetitions", 1, 1000);
+  /** [s]: a run above it is repeated twice only. */
+  double long_run = toml.number("long_run_s", Range::positive);
+  /** Of the second, independent reference. */
+  int reference_harmonics = toml.integer("reference_harmonics", 1, 4096);
+  TruthSettings truth{.settling = read_steady_settings(file)};
 };
 
-WorkPrecisionScene read_work_precision(SceneFile& file)
+WorkPrecisionScene read_work_precision(const SceneFile& file)
 {
-  StrictToml& toml = file.toml();
-  WorkPrecisionScene scene{
-      .sets = read_parameter_list(file, "parameters"),
-      .frequencies = toml.numbers("speeds_hz", Range::positive),
-      .below = toml.number("below_hz", Range::positive),
-      .candidates = read_candidates(toml),
-      .repetitions = toml.integer("repetitions", 1, 1000),
-      .long_run = toml.number("long_run_s", Range::positive),
-      .reference_harmonics = toml.integer("reference_harmonics", 1, 4096),
-      .truth = {.settling = read_steady_settings(file)}};
+  const WorkPrecisionScene scene{file};
+  const StrictToml& toml = scene.toml;
   if (scene.sets.size() != scene.frequencies.size())
     toml.fail("speeds_hz", "must have one value for each of parameters");
   for (double frequency : scene.frequencies)

@@ -6,21 +6,12 @@
 
 namespace rotor_stator::deviations {
 
-DeviationScene read_deviation_scene(SceneFile& file)
+DeviationScene read_deviation_scene(const SceneFile& file)
 {
   if (file.reading() != "exchanged")
     throw BadInput("--reading " + file.reading() +
                    ": must be exchanged; the deviations compare both readings (D-09)");
-  StrictToml& toml = file.toml();
-  return {.toml = toml,
-          .machine = read_parameters(file, "parameters"),
-          .printed = read_parameters(file, "printed_parameters"),
-          .harmonics = toml.integer("harmonics", 1, 64),
-          .speed = toml.number("speed_hz", Range::positive),
-          .gravity_speed = toml.number("gravity_speed_hz", Range::positive),
-          .transition_speed = toml.number("transition_speed_hz", Range::positive),
-          .range = file.speed_range("range_hz"),
-          .time_integration = read_steady_settings(file)};
+  return {file};
 }
 
 PeriodicMotion require_periodic(const BalanceSearch& search)

@@ -28,15 +28,18 @@ using EvidenceList = std::vector<Evidence>;
 PeriodicMotion require_periodic(const BalanceSearch& search);
 
 struct DeviationScene {
-  StrictToml toml;
-  Parameters machine;         ///< exchanged reading
-  Parameters printed;         ///< the printed one (D-09)
-  int harmonics;              ///< m
-  double speed;               ///< where the contact rotates [Hz]
-  double gravity_speed;       ///< where gravity dominates [Hz]
-  double transition_speed;    ///< between them [Hz]
-  std::vector<double> range;  ///< the speeds of Fig. 3 [Hz]
-  SteadySettings time_integration;
+  SceneFile file;
+  StrictToml toml = file.toml();
+  Parameters machine = read_parameters(file, "parameters");  ///< exchanged reading
+  Parameters printed = read_parameters(file, "printed_parameters");  ///< D-09
+  int harmonics = toml.integer("harmonics", 1, 64);                  ///< m
+  /** Where the contact rotates, where gravity dominates, and between them [Hz]. */
+  double speed = toml.number("speed_hz", Range::positive);
+  double gravity_speed = toml.number("gravity_speed_hz", Range::positive);
+  double transition_speed = toml.number("transition_speed_hz", Range::positive);
+  std::vector<double> range =
+      file.speed_range("range_hz");  ///< the speeds of Fig. 3 [Hz]
+  SteadySettings time_integration = read_steady_settings(file);
 
   /** A table of the scene file, which the entries share. */
   StrictToml table(const std::string& key) const { return StrictToml(toml).table(key); }
@@ -76,7 +79,7 @@ struct DeviationScene {
   motion::Motion integrated(double frequency) const;
 };
 
-DeviationScene read_deviation_scene(SceneFile& file);
+DeviationScene read_deviation_scene(const SceneFile& file);
 
 inline void add(EvidenceList& list, const EvidenceList& more)
 {
