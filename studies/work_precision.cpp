@@ -65,14 +65,6 @@ WorkPrecisionScene read_work_precision(const SceneFile& file)
   return scene;
 }
 
-/** One machine at one speed, and its references. */
-struct WorkCase {
-  std::size_t number;  ///< from 1
-  Parameters parameters;
-  TrueMotion truth, before;  ///< at the speed, and below it
-  double agreement;          ///< of shooting and harmonic balance [-]
-};
-
 struct WorkPoint : Measurement {
   std::size_t number;  ///< of the case
   double frequency;    ///< [Hz]
@@ -82,9 +74,9 @@ struct WorkPoint : Measurement {
   bool found() const { return std::isfinite(displacement); }
 };
 
-/** The scene's case of that number. Throws NoSolution when a reference cannot be had or
-    is not T-periodic. */
-WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
+/** The scene's case of that number, the motion below its speed known. Throws NoSolution
+    when a reference cannot be had or is not T-periodic. */
+References work_case(const WorkPrecisionScene& scene, std::size_t number)
 {
   const Parameters& parameters = scene.sets[number - 1];
   const auto periodic_motion = [&](double frequency) {
@@ -96,10 +88,10 @@ WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
     return truth;
   };
   const double frequency = scene.frequencies[number - 1];
-  WorkCase reference{number, parameters, periodic_motion(frequency),
-                     periodic_motion(frequency - scene.below), 0};
-  reference.agreement = agreement(parameters, reference.truth, scene.reference_harmonics);
-  return reference;
+  const TrueMotion truth = periodic_motion(frequency);
+  const TrueMotion before = periodic_motion(frequency - scene.below);
+  return {{parameters, {frequency}, Task::Known{before.frequency, before.state}},
+          {truth}};
 }
 
 /** Evaluations that are timed together, enough for the clock. */
@@ -194,23 +186,20 @@ const std::vector<Field<Row>> work_precision_fields{
      &Row::force_instants},
     {"transforms", "-", "Fourier transforms of one series", &Row::transforms}};
 
-/** One setting, measured. */
-WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
-                     bool continued, const Setting& setting)
+WorkPoint work_point(const WorkPrecisionScene& scene, std::size_t number,
+                     References reference, bool continued, const Setting& setting)
 {
-  const auto& [number, parameters, truth, before, agreement] = reference;
-  References references{{parameters, {truth.frequency}}, {truth}};
-  if (continued) references.before = {before.frequency, before.state};
-  const double once = measure(references, setting, 1).median;
+  if (!continued) reference.before.reset();
+  const double once = measure(reference, setting, 1).median;
   const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
-  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
-                  continued};
-  if (point.found()) split_time(point, references);
+  WorkPoint point{measure(reference, setting, repetitions), number,
+                  reference.frequencies.front(), continued};
+  if (point.found()) split_time(point, reference);
   return point;
 }
 
 Table work_precision_table(const WorkPrecisionScene& scene,
-                           const std::vector<WorkCase>& cases,
+                           const std::vector<std::vector<Cell>>& cases,
                            const std::vector<WorkPoint>& points)
 {
   Table table("Work against precision: one periodic motion, every method",
@@ -223,9 +212,7 @@ Table work_precision_table(const WorkPrecisionScene& scene,
       "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = "
       "%d",
       scene.truth.tolerance, scene.reference_harmonics));
-  for (const WorkCase& c : cases)
-    table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),
-                            c.truth.spread, c.truth.periodicity_residual, c.agreement});
+  for (const std::vector<Cell>& one : cases) table.row_line("case", one);
   table.note("row case: number, speed, file, Poincare spread, closure, agreement");
   for (const WorkPoint& point : points) table.row(work_precision_fields, point);
   return table;
@@ -237,15 +224,19 @@ int main(int argc, char** argv)
 {
   return run_figure(argc, argv, [](SceneFile& file) {
     const WorkPrecisionScene scene = read_work_precision(file);
-    std::vector<WorkCase> cases;
+    std::vector<std::vector<Cell>> cases;
     std::vector<WorkPoint> points;
     for (std::size_t number = 1; number <= scene.frequencies.size(); ++number) {
-      cases.push_back(work_case(scene, number));
+      const References reference = work_case(scene, number);
+      const TrueMotion& truth = reference.truths.front();
+      cases.push_back(
+          {number, truth.frequency, one_word(reference.parameters.file), truth.spread,
+           truth.periodicity_residual,
+           agreement(reference.parameters, truth, scene.reference_harmonics)});
       for (const Candidates& method : watched("methods", scene.candidates))
         for (bool continued : {false, true})
-          for (const SettingGroup& group : method.groups)
-            for (const Setting& setting : group)
-              points.push_back(work_point(scene, cases.back(), continued, setting));
+          for (const Setting& setting : method.groups | std::views::join)
+            points.push_back(work_point(scene, number, reference, continued, setting));
     }
     return work_precision_table(scene, cases, points);
   });
