@@ -7,7 +7,6 @@ Predictor, arc length, tolerance, step, cost. */
 #include "balance/bearing_problem.hpp"
 #include "continuation/sweep.hpp"
 #include "deviations/evidence.hpp"
-#include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator::deviations {
@@ -29,11 +28,15 @@ EvidenceList printed_predictor(const DeviationScene& scene)
   if (speeds.size() != 5) table.fail("speeds_hz", "must be five");
   const ArcLengthSettings scaling = arc_length_settings(scene.machine);
   LagrangePredictor predictor(scaling.arc_unknown_scale, scaling.speed_scale);
-  std::vector<PeriodicMotion> known;
-  for (double frequency : speeds) known.push_back(scene.solution(frequency));
-  const PeriodicMotion next = known.back();
-  known.pop_back();
-  for (const PeriodicMotion& solution : known) predictor.add(solution.x, solution.omega);
+  /** Distances by Eq. 19 as printed, without scales (D-03). */
+  LagrangePredictor unscaled(1, 1);
+  PeriodicMotion last;
+  for (int k = 0; k < 4; ++k) {
+    last = scene.solution(speeds[k]);
+    predictor.add(last.x, last.omega);
+    unscaled.add(last.x, last.omega);
+  }
+  const PeriodicMotion next = scene.solution(speeds[4]);
   Balance balance(bearing_problem(scene.machine, default_samples(scene.harmonics)),
                   scene.harmonics);
   const auto iterations = [&](const Eigen::VectorXd& x) -> double {
@@ -41,22 +44,21 @@ EvidenceList printed_predictor(const DeviationScene& scene)
     if (!report.converged()) throw NoSolution("prediction: " + report.reason());
     return report.iterations;
   };
-  const PeriodicMotion printed = printed_prediction(known);
+  const PeriodicMotion printed = unscaled.at_arc(0);  // Eq. 20 as printed, read at S_3
   const Eigen::VectorXd ours = predictor.at_speed(next.omega);
-  return {
-      {"D-02.last", speeds[3], "Hz", "speed of the last known solution"},
-      {"D-02.next", speeds[4], "Hz", "speed of the next one"},
-      {"D-02.moved_printed",
-       (printed.x - known.back().x).norm() + std::abs(printed.omega - known.back().omega),
-       "-", "distance of the printed prediction from the last solution, speed included"},
-      {"D-02.error_printed", (printed.x - next.x).norm() / next.x.norm(), "-",
-       "relative distance of the printed prediction from the next solution"},
-      {"D-02.error_ours", (ours - next.x).norm() / next.x.norm(), "-",
-       "the same with the corrected prediction"},
-      {"D-02.iterations_printed", iterations(printed.x), "-",
-       "Newton iterations at the next speed from the printed prediction"},
-      {"D-02.iterations_ours", iterations(ours), "-",
-       "the same from the corrected prediction"}};
+  return {{"D-02.last", speeds[3], "Hz", "speed of the last known solution"},
+          {"D-02.next", speeds[4], "Hz", "speed of the next one"},
+          {"D-02.moved_printed",
+           (printed.x - last.x).norm() + std::abs(printed.omega - last.omega), "-",
+           "distance of the printed prediction from the last solution, speed included"},
+          {"D-02.error_printed", (printed.x - next.x).norm() / next.x.norm(), "-",
+           "relative distance of the printed prediction from the next solution"},
+          {"D-02.error_ours", (ours - next.x).norm() / next.x.norm(), "-",
+           "the same with the corrected prediction"},
+          {"D-02.iterations_printed", iterations(printed.x), "-",
+           "Newton iterations at the next speed from the printed prediction"},
+          {"D-02.iterations_ours", iterations(ours), "-",
+           "the same from the corrected prediction"}};
 }
 
 EvidenceList arc_length_scaling(const DeviationScene& scene)

@@ -33,23 +33,6 @@ Eigen::MatrixXd gamma_inverse(int harmonics, int samples)
   return inverse;
 }
 
-PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four)
-{
-  std::vector<double> s{0};
-  for (int i = 0; i < 3; ++i)
-    s.push_back(s.back() + std::hypot((last_four[i + 1].x - last_four[i].x).norm(),
-                                      last_four[i + 1].omega - last_four[i].omega));
-  PeriodicMotion next{.x = Eigen::VectorXd::Zero(last_four[0].x.size())};
-  for (int i = 0; i <= 3; ++i) {
-    double weight = 1;
-    for (int j = 0; j <= 3; ++j)
-      if (i != j) weight *= (s[3] - s[j]) / (s[i] - s[j]);
-    next.x += weight * last_four[i].x;
-    next.omega += weight * last_four[i].omega;
-  }
-  return next;
-}
-
 PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmonics,
                            int samples, Form block)
     : bearing_(parameters.bearing), gamma_(gamma_matrix(harmonics, samples)),

@@ -9,7 +9,6 @@ has its corrected one beside it. */
 #include <Eigen/Core>
 #include <vector>
 
-#include "balance/periodic_motion.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::deviations {
@@ -22,10 +21,6 @@ Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Form form = Form::corre
 
 /** Γ⁻¹ for N samples, N × (2m+1): coefficients to samples. */
 Eigen::MatrixXd gamma_inverse(int harmonics, int samples);
-
-/** Eq. 20 as printed, read at S_3 (D-02), from the four last solutions, oldest first.
-   Distances by Eq. 19 as printed, without scales (D-03). */
-PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four);
 
 /** Eqs 8 to 16 at one speed in x_s, y_s, x_r, y_r: 4(2m+1) unknowns, one block of four
    values per coefficient. The first diagonal entry of the blocks of Eq. 11 is K - (jω)²M,

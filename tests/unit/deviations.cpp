@@ -2,6 +2,7 @@
  * paper/deviations.md quotes. */
 #include <fstream>
 #include <sstream>
+#include "continuation/sweep.hpp"
 #include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "model/hertz.hpp"
@@ -88,13 +89,16 @@ TEST_CASE("D-01: the printed sign is a negative stiffness that grows and has no 
 
 TEST_CASE("D-02: the printed predictor returns the last point exactly")
 {
-  std::vector<PeriodicMotion> known;
-  for (int k = 0; k < 4; ++k)
-    known.push_back(
-        {.omega = 100 + 1.7 * k, .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)});
-  const PeriodicMotion next = printed_prediction(known);
-  CHECK(next.x == known.back().x);
-  CHECK(next.omega == known.back().omega);
+  LagrangePredictor unscaled(1, 1);
+  PeriodicMotion last;
+  for (int k = 0; k < 4; ++k) {
+    last = {.omega = 100 + 1.7 * k,
+            .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)};
+    unscaled.add(last.x, last.omega);
+  }
+  const PeriodicMotion next = unscaled.at_arc(0);
+  CHECK(next.x == last.x);
+  CHECK(next.omega == last.omega);
 
   const auto list = printed_predictor(scene());
   CHECK(value(list, "D-02.moved_printed") == 0);
