@@ -150,11 +150,11 @@ std::vector<double> TimedMethod::seconds_by_speed()
 {
   std::vector<double> seconds;
   for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
-    const CpuTime time = time_of(1, [&] {
+    const auto one = [&] {
       if (k == 0) begin();
       solve(k);
-    });
-    seconds.push_back(time.median);
+    };
+    seconds.push_back(time_of(1, one).median);
   }
   return seconds;
 }
@@ -384,19 +384,15 @@ class ShootingSweep : public Integration {
   void solve(std::size_t speed) override
   {
     const double omega = angular(task_.frequencies[speed]);
-    bool found = false;
-    if (!predictor_.empty()) {
+    if (!predictor_.empty())
       state_ = state_of(predictor_.at_speed(omega).cwiseProduct(scales_));
-      found = shot(speed);
-    }
-    if (!found) {
+    if (predictor_.empty() || !shot(speed)) {
       predictor_.clear();
       jacobian_.resize(0, 0);
       state_ = quasi_static_state(task_.parameters, omega);
       advance(*stepper(speed, 1), schedule_.at(speed).transient, omega);
-      found = shot(speed);
+      if (!shot(speed)) return;
     }
-    if (!found) return;
     learn(omega);
     reached_[speed] = {0, state_};
   }
@@ -526,11 +522,10 @@ Measurement measure(const References& sweep, const Schedule& schedule, int repet
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
 {
-  const auto logarithms = [](const std::vector<double>& values) -> Eigen::ArrayXd {
-    return Eigen::ArrayXd::Map(values.data(), std::ssize(values)).log();
-  };
-  const Eigen::ArrayXd log_x = logarithms(x), off = log_x - log_x.mean();
-  return (off * logarithms(y)).sum() / off.square().sum();
+  const Eigen::ArrayXd log_x = Eigen::ArrayXd::Map(x.data(), std::ssize(x)).log();
+  const Eigen::ArrayXd log_y = Eigen::ArrayXd::Map(y.data(), std::ssize(y)).log();
+  const Eigen::ArrayXd off = log_x - log_x.mean();
+  return (off * log_y).sum() / off.square().sum();
 }
 
 }  // namespace rotor_stator::costs
