@@ -106,10 +106,9 @@ static std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
   return {};
 }
 
-/** Of the settings tried. `rows` has that of aft, if it is to be compared with. */
+/** Of the settings tried. */
 static EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                              const std::vector<Measurement>& tried, double target,
-                              const std::vector<EqualErrorRow>& rows)
+                              const std::vector<Measurement>& tried, double target)
 {
   constexpr std::size_t few = 4;
   std::vector<Measurement> good = tried;
@@ -119,21 +118,14 @@ static EqualErrorRow cheapest(const EqualErrorScene& scene, const References& ra
   for (Measurement& m : good) m = measure(range, m.schedule, scene.repetitions);
   if (const auto schedule = schedule_by_speed(scene, range, tried, target))
     good.push_back(measure(range, *schedule, scene.repetitions));
-  EqualErrorRow row{
-      good.empty()
-          ? *std::ranges::min_element(tried, {}, [&](auto& m) { return m.*scene.error; })
-          : *std::ranges::min_element(good, {}, &Measurement::median),
-      format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-      range.frequencies.size(),
-      tried.size(),
-      target,
-      !good.empty()};
-  if (row.reached && row.schedule.method() == "aft") row.ratio = 1;
-  for (const EqualErrorRow& aft : rows)
-    if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&
-        aft.target == target)
-      row.ratio = row.median / aft.median;
-  return row;
+  return {good.empty() ? *std::ranges::min_element(
+                             tried, {}, [&](auto& m) { return m.*scene.error; })
+                       : *std::ranges::min_element(good, {}, &Measurement::median),
+          format("%g-%g", range.frequencies.front(), range.frequencies.back()),
+          range.frequencies.size(),
+          tried.size(),
+          target,
+          !good.empty()};
 }
 
 std::vector<EqualErrorRow> at_equal_error(const EqualErrorScene& scene,
@@ -143,8 +135,14 @@ std::vector<EqualErrorRow> at_equal_error(const EqualErrorScene& scene,
   for (const References& range : periodic_ranges(scene, references))
     for (const Candidates& method : watched("methods", scene.candidates)) {
       const std::vector<Measurement> tried = try_settings(scene, range, method);
-      for (double target : scene.targets)
-        rows.push_back(cheapest(scene, range, tried, target, rows));
+      for (double target : scene.targets) {
+        rows.push_back(cheapest(scene, range, tried, target));
+        EqualErrorRow& row = rows.back();
+        for (const EqualErrorRow& aft : rows)
+          if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&
+              aft.target == target)
+            row.ratio = row.median / aft.median;
+      }
     }
   return rows;
 }

@@ -110,9 +110,8 @@ EvidenceList names_of_gamma(const DeviationScene& scene)
 {
   const int m = scene.harmonics, n = 2 * m + 1;
   const Eigen::MatrixXd series = scene.solution(scene.speed).bodies;
-  const Eigen::MatrixXd gamma = gamma_matrix(m, n);
   const Eigen::MatrixXd truth = gamma_inverse(m, n) * series.transpose();
-  const Eigen::MatrixXd as_text = gamma * series.transpose();
+  const Eigen::MatrixXd as_text = gamma_matrix(m, n) * series.transpose();
   return {{"D-04.speed", scene.speed, "Hz", "speed of the solution"},
           {"D-04.error_text", (as_text - truth).norm() / truth.norm(), "-",
            "samples with gamma taken as frequency to time, over the true ones: distance"},
@@ -126,7 +125,6 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
 {
   StrictToml table = scene.table("sampling");
   const auto common = table.integers("common_samples", 3, 1 << 20);
-  const ArcLengthSettings settings = arc_length_settings(scene.machine);
   const double from = angular(scene.range.front());
   const motion::Motion truth = scene.integrated(scene.speed);
   EvidenceList list{
@@ -141,9 +139,9 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
       const std::string where = format("_m%d_N%d", m, n);
       const std::string with = format("m = %d, N = %d", m, n);
       Balance balance(bearing_problem(scene.machine, n), m);
-      const Branch branch =
-          follow_branch(balance, from, angular(scene.range.back()),
-                        quasi_static_start(scene.machine, from, m), settings);
+      const Branch branch = follow_branch(balance, from, angular(scene.range.back()),
+                                          quasi_static_start(scene.machine, from, m),
+                                          arc_length_settings(scene.machine));
       const motion::Motion motion =
           scene.motion_of(require_periodic({scene.machine, angular(scene.speed), m, n}));
       add(list, {{"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",

@@ -155,8 +155,8 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
            angular(1),
        "Hz", "gravity and unbalance load the rigid joint equally"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
-  int number = 0;
-  for (double factor : scene.table("masses").numbers("factors", Range::positive)) {
+  for (int number = 0;
+       double factor : scene.table("masses").numbers("factors", Range::positive)) {
     list.push_back({format("D-13.factor_%d", ++number), factor, "-", "of both masses"});
     Parameters machine = scene.machine;
     machine.stator.mass *= factor;
