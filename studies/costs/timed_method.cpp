@@ -326,7 +326,7 @@ private:
 /** Time integration and shooting end in a state at each speed; one period from it, by the
     same method at the same setting, is the motion. */
 class Integration : public TimedMethod {
-public:
+protected:
   using TimedMethod::TimedMethod;
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
@@ -341,7 +341,6 @@ public:
     }
   }
 
-protected:
   void begin() override
   {
     TimedMethod::begin();
@@ -424,28 +423,23 @@ class ShootingSweep : public Integration {
 
 /** All speeds side by side, each from quasi-static contact. */
 class Ensemble : public Integration {
-public:
   using Integration::Integration;
 
   void begin() override
   {
     Integration::begin();
     flows_.clear();
-    const std::size_t speeds = task_.frequencies.size();
-    std::vector<State> states(speeds);
     std::vector<Passage> passages;
-    for (std::size_t k = 0; k < speeds; ++k) {
+    for (std::size_t k = 0; k < reached_.size(); ++k) {
       const double omega = angular(task_.frequencies[k]);
-      states[k] = quasi_static_state(task_.parameters, omega);
+      auto& [periods, state] =
+          reached_[k].emplace(whole_periods(schedule_.at(k).transient, omega),
+                              quasi_static_state(task_.parameters, omega));
       flows_.push_back(stepper(k, 1));
-      passages.push_back({flows_.back().get(), 0, &states[k],
-                          whole_periods(schedule_.at(k).transient, omega)});
+      passages.push_back({flows_.back().get(), 0, &state, periods});
     }
     const std::vector<Failure> failures = advance_together(passages);
-    for (std::size_t k = 0; k < speeds; ++k) {
-      counts_.force_instants += flows_[k]->evaluations();
-      reached_[k] = {passages[k].count, states[k]};
-    }
+    for (const auto& flow : flows_) counts_.force_instants += flow->evaluations();
     for (const Failure& failure : failures) reached_[failure.passage].reset();
   }
 
@@ -462,7 +456,6 @@ public:
     return seconds;
   }
 
-private:
   std::vector<std::unique_ptr<Flow>> flows_;
 };
 
