@@ -133,11 +133,9 @@ Table timing_table(const TimingScene& scene)
   table.value("repetitions", scene.repetitions);
   references.describe(table, scene.truth);
   for (std::size_t k = 0; k < scene.balances.size(); ++k) {
-    const auto measured = [&](const Setting& setting) {
-      return measure(references, setting, scene.repetitions);
-    };
-    const Measurement balance = measured(scene.balances[k]);
-    const Measurement rk4 = measured(cheapest_rk4(scene.rk4, references, balance));
+    const Measurement balance = measure(references, scene.balances[k], scene.repetitions);
+    const Measurement rk4 = measure(
+        references, cheapest_rk4(scene.rk4, references, balance), scene.repetitions);
     const int m = scene.balances[k].harmonics;
     table.row(timing_fields,
               {balance, m, rk4.median / balance.median, scene.paper_cpu[k]});

@@ -87,10 +87,9 @@ References work_case(const WorkPrecisionScene& scene, std::size_t number)
                  frequency, truth.spread));
     return truth;
   };
-  const double frequency = scene.frequencies[number - 1];
+  const double frequency = scene.frequencies[number - 1], below = frequency - scene.below;
   const TrueMotion truth = periodic_motion(frequency);
-  const TrueMotion before = periodic_motion(frequency - scene.below);
-  return {{parameters, {frequency}, Task::Known{before.frequency, before.state}},
+  return {{parameters, {frequency}, Task::Known{below, periodic_motion(below).state}},
           {truth}};
 }
 

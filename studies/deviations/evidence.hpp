@@ -9,7 +9,6 @@ or one closed form each. What only one entry asks for is read where it is used. 
 #include <functional>
 
 #include "balance/find.hpp"
-#include "io/table.hpp"
 #include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
