@@ -334,8 +334,7 @@ protected:
     if (!reached_[speed]) return {};
     auto [periods, state] = *reached_[speed];
     try {
-      const auto parts = stepper(speed, points);
-      return motion::recorded(*parts, points, state, periods);
+      return motion::recorded(*stepper(speed, points), points, state, periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
     }

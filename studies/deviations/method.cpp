@@ -1,9 +1,4 @@
-/**
-# Evidence on the method (§3.1 and §3.2)
-
-The balance: the blocks of Eq. 11, Newton's step and its criteria, what Γ takes to
-harmonics, and what too few samples fold onto them. Continuation: predictor, arc length,
-tolerance, step, cost. */
+/** # Evidence on the method: balance and continuation (§3.1 and §3.2) */
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"

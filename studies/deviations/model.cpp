@@ -1,7 +1,4 @@
-/**
-# Evidence on the model (§2 and Table 1)
-
-Contact, readings, masses. */
+/** # Evidence on the model (§2 and Table 1) */
 #include <cmath>
 #include <numbers>
 
@@ -13,22 +10,6 @@ Contact, readings, masses. */
 
 namespace rotor_stator::deviations {
 
-/** The largest sag v [m] of the rotor below the stator, without contact, that both
-   bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r),
-   where the printed force pushes them further apart. */
-static double largest_printed_sag(const Parameters& parameters)
-{
-  const double compliance =
-      1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
-  const BallBearing bearing(parameters.bearing);
-  double largest = 0;
-  for (int k = 0; k <= 10000; ++k) {
-    const double v = 2 * parameters.bearing.clearance * k / 10000;
-    largest = std::max(largest, v - compliance * bearing.force({1, 0}, {0, v}).y);
-  }
-  return largest;
-}
-
 EvidenceList sign_of_approach(const DeviationScene& scene)
 {
   const StaticContact contact = static_contact(scene.machine);
@@ -36,7 +17,17 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
     return free_modes(scene.machine, stiffness).real().maxCoeff();
   };
   const double printed = growth(-contact.stiffness);
-  const double sag = std::abs(free_displacement(scene.machine, 0, 0).y);
+  /** The largest sag v [m] of the rotor below the stator, without contact, that both bodies
+      can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r), where
+      the printed force pushes them further apart. */
+  const double compliance =
+      1 / scene.machine.stator.stiffness() + 1 / scene.machine.rotor.stiffness();
+  const BallBearing bearing(scene.machine.bearing);
+  double sag_printed = 0;
+  for (int k = 0; k <= 10000; ++k) {
+    const double v = 2 * scene.machine.bearing.clearance * k / 10000;
+    sag_printed = std::max(sag_printed, v - compliance * bearing.force({1, 0}, {0, v}).y);
+  }
   return {{"D-01.stiffness_ours", contact.stiffness, "N/m",
            "slope of the bearing's force along the static contact, Eq. 4 corrected"},
           {"D-01.stiffness_printed", -contact.stiffness, "N/m",
@@ -49,9 +40,9 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
            "the same with Eq. 4 corrected; negative: it decays"},
           {"D-01.doubling_printed", std::numbers::ln2 / printed, "s",
            "time in which a disturbance doubles, as printed"},
-          {"D-01.sag", sag, "m",
+          {"D-01.sag", std::abs(free_displacement(scene.machine, 0, 0).y), "m",
            "distance by which the rotor sags below the stator without contact"},
-          {"D-01.sag_printed", largest_printed_sag(scene.machine), "m",
+          {"D-01.sag_printed", sag_printed, "m",
            "largest such distance for which the printed sign has an equilibrium"}};
 }
 

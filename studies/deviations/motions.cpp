@@ -1,7 +1,4 @@
-/**
-# Evidence on the motions (§3.3)
-
-Amplitudes, cage, time integration, figures. */
+/** # Evidence on the motions (§3.3) */
 #include <cmath>
 #include <numbers>
 
