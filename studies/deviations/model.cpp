@@ -17,9 +17,9 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
     return free_modes(scene.machine, stiffness).real().maxCoeff();
   };
   const double printed = growth(-contact.stiffness);
-  /** The largest sag v [m] of the rotor below the stator, without contact, that both bodies
-      can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r), where
-      the printed force pushes them further apart. */
+  /** The largest sag v [m] of the rotor below the stator, without contact, that both
+      bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s +
+      1/k_r), where the printed force pushes them further apart. */
   const double compliance =
       1 / scene.machine.stator.stiffness() + 1 / scene.machine.rotor.stiffness();
   const BallBearing bearing(scene.machine.bearing);
