@@ -42,7 +42,7 @@ struct TimingScene {
   SceneFile file;
   StrictToml toml = file.toml();
   Parameters parameters = read_parameters(file, "parameters");
-  std::vector<double> frequencies = file.speed_range("speeds_hz");  // [Hz]
+  std::vector<double> frequencies = file.speed_range("speeds_hz");  ///< [Hz]
   /** Printed for each balance, and for RK4 last; unit not given. */
   std::vector<double> paper_cpu = toml.numbers("paper_cpu", Range::positive);
   int repetitions = toml.integer("repetitions", 1, 1000);

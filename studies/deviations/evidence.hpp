@@ -36,8 +36,8 @@ struct DeviationScene {
   double speed = toml.number("speed_hz", Range::positive);
   double gravity_speed = toml.number("gravity_speed_hz", Range::positive);
   double transition_speed = toml.number("transition_speed_hz", Range::positive);
-  std::vector<double> range =
-      file.speed_range("range_hz");  ///< the speeds of Fig. 3 [Hz]
+  /** The speeds of Fig. 3 [Hz]. */
+  std::vector<double> range = file.speed_range("range_hz");
   SteadySettings time_integration = read_steady_settings(file);
 
   /** A table of the scene file, which the entries share. */
