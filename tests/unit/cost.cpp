@@ -145,10 +145,7 @@ TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
   for (double step : {1e-3, 4e-4, 2e-4, 1e-4, 5e-5})
     rk4.push_back({.method = "rk4", .step = step, .transient = 2, .recorded = 90});
   const References references = true_motions(set_1(), {40, 41}, truth_settings);
-  const Setting six{.method = "aft",
-                    .harmonics = 6,
-                    .samples = 32,
-                    .paper_sweep = true};
+  const Setting six{.method = "aft", .harmonics = 6, .samples = 32, .paper_sweep = true};
   const Measurement balance = measure(references, six, 1);
   CHECK(balance.displacement > 1e-6);
   CHECK(balance.force_instants % 32 == 0);
