@@ -41,9 +41,8 @@ void add_motion(const Parameters& parameters, double frequency, const FoundMotio
       motion.size(),
       closes ? motion.size() : std::size_t(drawn_periods * motion.points_per_period));
   const auto loads =
-      motion::contact_evolution(found.machine, motion, long(std::ceil(2 / turns)))
-          .ball_force;
-  const std::size_t instants = std::min(loads.size(), std::size_t(2 * per_turn));
+      motion::ball_forces(found.machine, motion, long(std::ceil(2 / turns)));
+  const std::size_t instants = std::min(std::size_t(loads.rows()), std::size_t(2 * per_turn));
   const motion::Lines all = lines_of(found);
   const auto forces = motion::bearing_forces(found.machine, motion);
   const auto add = [](std::initializer_list<double> values) {
@@ -58,7 +57,7 @@ void add_motion(const Parameters& parameters, double frequency, const FoundMotio
     add({stator.x, stator.y, rotor.x, rotor.y, forces[k].x, forces[k].y});
   }
   for (std::size_t k = 0; k < instants; ++k)
-    numbers.insert(numbers.end(), loads[k].begin(), loads[k].end());
+    for (const double load : loads.row(k)) numbers.push_back(load);
   for (const auto& [order, a] : all.lines) {
     add({order * frequency, a[0], a[1], a[2], a[3]});
     text += "=" + motion::name_of(order, bearing, 1e-9, closes ? 128 : 16).name + "\n";

@@ -116,19 +116,17 @@ void add_curve(Table& table, const DataSet& set, Curve curve,
 /** Of an aperiodic motion, the amplitudes and the contact of a turn. */
 void average_over_turns(Row& row, const Parameters& machine, const motion::Motion& motion)
 {
-  std::array<std::vector<double>, 4> amplitudes;
-  std::vector<double> contact;
-  for (const motion::Motion& turn : motion::pieces(motion, 1)) {
-    const Displacements amplitude = half_peak_to_peak(turn);
-    for (std::size_t i = 0; i < 4; ++i) amplitudes[i].push_back(amplitude[i]);
-    contact.push_back(motion::contact_share(machine, turn));
-  }
   for (std::size_t i = 0; i < 4; ++i) {
-    const BatchMean mean = long_mean(amplitudes[i]);
+    const BatchMean mean = mean_over(motion, 1, [i](const motion::Motion& turn) {
+      return half_peak_to_peak(turn)[i];
+    });
     row.amplitude[i] = mean.value;
     row.amplitude_error[i] = mean.error;
   }
-  row.contact_error = long_mean(contact).error;
+  const auto share = [&](const motion::Motion& turn) {
+    return motion::contact_share(machine, turn);
+  };
+  row.contact_error = mean_over(motion, 1, share).error;
 }
 
 /** Those of the motions that settle from rest, looked at twelve times in a vibration of

@@ -70,7 +70,13 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const auto machines = read_parameter_list(file, "parameters");
     const auto frequencies = file.speed_range("speeds_hz");
-    const auto settings = motion::read_regime_settings(file);
+    StrictToml toml = file.toml().table("regime");
+    const motion::RegimeSettings settings{
+        .step_over_default = toml.number("step_over_default", Range::positive),
+        .longest = toml.number("longest_s", Range::positive),
+        .window = toml.number("window_s", Range::positive),
+        .average = toml.number("average_s", Range::positive),
+        .points_per_period = toml.integer("points_per_period", 4, 4096)};
     file.toml().refuse_unknown_keys();
     Table table("Regimes of the motion", fields);
     for (const Parameters& machine : machines) describe(table, machine, false);

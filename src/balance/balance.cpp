@@ -120,17 +120,13 @@ void Balance::combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
   });
 }
 
-/** Whether (X, ω) is the point that was evaluated last, bit by bit. */
-bool Balance::at(const Eigen::VectorXd& x, double omega) const
-{
-  return evaluated_ && omega == omega_ &&
-         std::memcmp(x.data(), series_.data(), x.size() * sizeof(double)) == 0;
-}
-
 const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
                                          bool with_stiffness)
 {
-  const bool known = at(x, omega);
+  /** Whether (X, ω) is the point that was evaluated last, bit by bit. */
+  const bool known =
+      evaluated_ && omega == omega_ &&
+      std::memcmp(x.data(), series_.data(), x.size() * sizeof(double)) == 0;
   if (known && (has_stiffness_ || !with_stiffness)) return residual_;
   evaluated_ = has_spectra_ = false;  // should the budget end here
   if (!known) {
@@ -364,15 +360,14 @@ void Balance::diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
   }
 }
 
-int Balance::highest_coupled(const Eigen::VectorXd& x, double omega, double coupling)
+int Balance::highest_coupled(const Eigen::VectorXd& x, double omega)
 {
   residual(x, omega);
-  const int two = 2 * problem_.dofs;
-  const double stiffness =
-      stiffness_samples_.leftCols(two * two / 4).rowwise().norm().maxCoeff();
+  const int d = problem_.dofs, two = 2 * d;
+  const double stiffness = stiffness_samples_.leftCols(d * d).rowwise().norm().maxCoeff();
   for (int h = m_; h > 0; --h) {
     const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
-    if (!(a.partialPivLu().solve(b).norm() * stiffness < coupling)) return h;
+    if (!(a.partialPivLu().solve(b).norm() * stiffness < 1)) return h;
   }
   return 0;
 }

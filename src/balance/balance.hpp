@@ -76,7 +76,7 @@ struct Problem {
       one costs as much. */
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
-  /** The force at all N samples; `Machine::put_equations` sets that of the bearing, of an
+  /** The force at all N samples; `bearing_problem` sets that of the bearing, of an
       undamped one to a `SampledBearing`. `q`: N × d; `force`: N × d; `stiffness`, unless
       it is null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
@@ -169,8 +169,8 @@ public:
                        Eigen::MatrixXd& blocks);
 
   /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹
-      B_h‖ times the largest stiffness over the period is at least `coupling` [-]. */
-  int highest_coupled(const Eigen::VectorXd& x, double omega, double coupling);
+      B_h‖ times the largest stiffness over the period is at least 1. */
+  int highest_coupled(const Eigen::VectorXd& x, double omega);
 
   /** Evaluations of the force at all N samples. */
   long evaluations() const { return evaluations_; }
@@ -184,7 +184,6 @@ public:
 
 private:
   void refresh_blocks(double omega);
-  bool at(const Eigen::VectorXd& x, double omega) const;
   void need_spectra(const Eigen::VectorXd& x, double omega);
   void combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                const Eigen::Ref<const Eigen::MatrixXd>& series,

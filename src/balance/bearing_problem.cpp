@@ -1,5 +1,6 @@
 #include "balance/bearing_problem.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -52,11 +53,6 @@ struct LoadedBody {
   std::array<Varying, 2> load;
 };
 
-bool is_loaded(Harmonic h, int turns)
-{
-  return h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(turns), 0};
-}
-
 std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Harmonic h)
 {
   const double order = order_of(h, p.bearing);
@@ -66,7 +62,7 @@ std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Ha
     return {{value, order * slope}, {Varying{constant.x, 0}, Varying{constant.y, 0}}};
   };
   std::array<LoadedBody, 2> bodies{loaded(p.stator), loaded(p.rotor)};
-  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+  if (h == turning(p)) {
     const double moment = p.unbalance * p.turns * p.turns;
     const Varying force{moment * omega * omega, 2 * moment * omega};
     bodies[1].load = {force, force * Varying{{0, -1}, 0}};
@@ -97,7 +93,7 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   put_isotropic(b.slope, block.b_slope);
   block.c.setZero(2);
   block.c_slope.setZero(2);
-  if (!is_loaded(h, parameters.turns)) return;
+  if (h != Harmonic{0, 0} && h != turning(parameters)) return;
   for (int axis = 0; axis < 2; ++axis) {
     const auto &f_s = stator.load, &f_r = rotor.load;
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
@@ -106,12 +102,37 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   }
 }
 
-}  // namespace
-
-void put_moving_force(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem)
+/** Sets the force of joints that are Eq. 5 alone. */
+void put_elastic_force(const std::vector<Bearing>& joints, const TorusLine& line,
+                       Problem& problem)
 {
-  const std::vector<Bearing> joints = joints_of(parameters);
+  std::vector<SampledBearing> bearings;
+  for (const Bearing& bearing : joints)
+    bearings.emplace_back(bearing_along(line, bearing), line.samples);
+  if (bearings.size() == 1) {
+    problem.force = bearings.front();
+    return;
+  }
+  problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                             Eigen::MatrixXd* stiffness) {
+    const Eigen::Index d = u.cols();
+    force.resize(u.rows(), d);
+    if (stiffness) stiffness->setZero(u.rows(), d * d);
+    Eigen::MatrixXd own_force, own_stiffness;
+    for (Eigen::Index k = 0; const SampledBearing& bearing : bearings) {
+      bearing(u.middleCols<2>(k), own_force, stiffness ? &own_stiffness : nullptr);
+      force.middleCols<2>(k) = own_force;
+      for (Eigen::Index j = 0; stiffness && j < 4; ++j)
+        stiffness->col(k + j % 2 + d * (k + j / 2)) = own_stiffness.col(j);
+      k += 2;
+    }
+  };
+}
+
+/** Sets the force of joints of which one is not Eq. 5 alone. */
+void put_moving_force(const Parameters& parameters, const std::vector<Bearing>& joints,
+                      const TorusLine& line, Problem& problem)
+{
   std::vector<std::vector<Angles>> angles;  // of each joint
   for (const Bearing& joint : joints) {
     const BallBearing there(bearing_along(line, joint), 0, parameters.turns * line.turns);
@@ -152,6 +173,8 @@ void put_moving_force(const Parameters& parameters, const TorusLine& line,
   };
 }
 
+}  // namespace
+
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget)
 {
@@ -165,18 +188,12 @@ Problem bearing_problem(const Parameters& parameters, int samples,
   return bearing_problem(parameters, TorusLine{z, samples}, budget);
 }
 
-void Machine::put_equations(const Parameters& parameters, const TorusLine& line,
-                            Problem& problem) const
+void Machine::put_equations(const Parameters& parameters, Problem& problem) const
 {
   problem.linear = [parameters, k = scales(parameters).stiffness](
                        double omega, Harmonic h, LinearBlock& block) {
     condense(parameters, k, omega, h, block);
   };
-  if (parameters.bearing.is_elastic_hertz()) {
-    problem.force = SampledBearing(bearing_along(line, parameters.bearing), line.samples);
-  } else {
-    put_moving_force(parameters, line, problem);
-  }
 }
 
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
@@ -192,7 +209,12 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
-  parameters.bodies->put_equations(parameters, line, problem);
+  parameters.bodies->put_equations(parameters, problem);
+  const std::vector<Bearing> joints = joints_of(parameters);
+  if (std::ranges::all_of(joints, &Bearing::is_elastic_hertz))
+    put_elastic_force(joints, line, problem);
+  else
+    put_moving_force(parameters, joints, line, problem);
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));
@@ -247,14 +269,9 @@ Eigen::MatrixXd Machine::all_series(const Parameters&, const PeriodicMotion& mot
 Eigen::MatrixXd Machine::shown_series(const Parameters& parameters,
                                       const PeriodicMotion& motion) const
 {
-  const auto columns = motion.harmonics.coefficients();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
-  Eigen::MatrixXd bodies(4, columns);
-  for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const auto [stator, rotor] =
-        stator_and_rotor(parameters, motion.omega, motion.harmonics.list()[h]);
+  return series_of(motion, 4, [&](Harmonic h, auto& force, auto& relative) {
+    const auto [stator, rotor] = stator_and_rotor(parameters, motion.omega, h);
     const Complex z_s = stator.z.value, z_r = rotor.z.value;
-    const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
     SmallVector body(4);
     for (int axis = 0; axis < 2; ++axis) {
       /** The stiffer of the two bodies gives its displacement and u the other's: the
@@ -264,9 +281,8 @@ Eigen::MatrixXd Machine::shown_series(const Parameters& parameters,
                        : (rotor.load[axis].value - force[axis]) / z_r - relative[axis];
       body[2 + axis] = body[axis] + relative[axis];
     }
-    put_amplitude(bodies, h, body);
-  }
-  return bodies;
+    return body;
+  });
 }
 
 }  // namespace rotor_stator

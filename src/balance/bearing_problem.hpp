@@ -23,6 +23,12 @@ The equations hold for two frequencies and for periods of several turns too. */
 
 namespace rotor_stator {
 
+/** The harmonic of the rotor's turning, which the unbalance drives. */
+inline Harmonic turning(const Parameters& parameters)
+{
+  return {static_cast<double>(parameters.turns), 0};
+}
+
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each
     joint; N samples; paid for from `budget`. Throws NoSolution when the force has not the
     period of rotation (n ω_cage/ω not whole, D-11): no series in ω can solve it. */
@@ -32,10 +38,6 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 /** The same with any cage, along a line of the torus. */
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget = {});
-
-/** Sets the force of joints of which one is not Eq. 5 alone. */
-void put_moving_force(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem);
 
 /** A start for Newton, 2 × (2m+1) coefficients as a vector: the motion without contact
    where it stays inside the clearance; otherwise at each instant the force that would
@@ -47,5 +49,21 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
     large machine shows: the bodies' linear responses to the bearing's force along
     `motion`. */
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion);
+
+/** The series of q, so many rows, from the amplitudes q_h = `answer`(h, F_h, u_h) at the
+    harmonics of a motion. */
+template <class Answer>
+Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index rows, Answer answer)
+{
+  const auto columns = motion.harmonics.coefficients();
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), motion.force.rows(),
+                                            columns);
+  Eigen::MatrixXd series(rows, columns);
+  for (int h = 0; h <= motion.harmonics.count(); ++h) {
+    const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
+    put_amplitude(series, h, answer(motion.harmonics.list()[h], force, relative));
+  }
+  return series;
+}
 
 }  // namespace rotor_stator

@@ -1,7 +1,6 @@
 #include "balance/large_problem.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,7 +26,7 @@ struct HarmonicAlone {
         load(Eigen::VectorXcd::Zero(machine.load.size())), load_slope(load)
   {
     if (h == Harmonic{0, 0}) load = machine.load;
-    if (h != Harmonic{static_cast<double>(p.turns), 0}) return;
+    if (h != turning(p)) return;
     load = speed * speed * machine.unbalance;
     load_slope = 2 * speed * rotor_speed(p, 1) * machine.unbalance;
   }
@@ -94,7 +93,7 @@ Answers answers_of(const LargeBodies& machine, const Parameters& p, double omega
                   Eigen::VectorXcd::Zero(machine.shown), spring};
   const auto unit = value.tail(machine.shown), unit_slope = slope.tail(machine.shown);
   if (h == Harmonic{0, 0}) answers.driven = size_of_load * unit;
-  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+  if (h == turning(p)) {
     answers.driven = size_of_load * speed * speed * unit;
     answers.driven_slope =
         size_of_load * per_omega * speed * (2 * unit + speed * unit_slope);
@@ -133,8 +132,7 @@ void require_one_passage(const Parameters& parameters)
 
 }  // namespace
 
-void MatrixMachine::put_equations(const Parameters& parameters, const TorusLine& line,
-                                  Problem& problem) const
+void MatrixMachine::put_equations(const Parameters& parameters, Problem& problem) const
 {
   require_one_passage(parameters);
   problem.dofs = static_cast<int>(bodies_.joints.cols());
@@ -142,26 +140,6 @@ void MatrixMachine::put_equations(const Parameters& parameters, const TorusLine&
     block = large_block(bodies_, parameters, omega, h);
   };
   problem.operations *= static_cast<double>(bodies_.places.size());
-  const std::vector<Bearing> joints = joints_of(parameters);
-  if (!std::ranges::all_of(joints, &Bearing::is_elastic_hertz))
-    return put_moving_force(parameters, line, problem);
-  std::vector<SampledBearing> bearings;
-  for (const Bearing& bearing : joints)
-    bearings.emplace_back(bearing_along(line, bearing), line.samples);
-  problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                             Eigen::MatrixXd* stiffness) {
-    const Eigen::Index d = u.cols();
-    force.resize(u.rows(), d);
-    if (stiffness) stiffness->setZero(u.rows(), d * d);
-    Eigen::MatrixXd own_force, own_stiffness;
-    for (Eigen::Index k = 0; const SampledBearing& bearing : bearings) {
-      bearing(u.middleCols<2>(k), own_force, stiffness ? &own_stiffness : nullptr);
-      force.middleCols<2>(k) = own_force;
-      for (Eigen::Index j = 0; stiffness && j < 4; ++j)
-        stiffness->col(k + j % 2 + d * (k + j / 2)) = own_stiffness.col(j);
-      k += 2;
-    }
-  };
 }
 
 void MatrixMachine::prepare(const Parameters& parameters, double omega,
@@ -175,8 +153,8 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
                                              int samples) const
 {
   const LinearBlock rest = large_block(bodies_, parameters, omega, {0, 0});
-  const LinearBlock turning =
-      large_block(bodies_, parameters, omega, {static_cast<double>(parameters.turns), 0});
+  const LinearBlock whirling =
+      large_block(bodies_, parameters, omega, turning(parameters));
   const auto sampled = [&](const Eigen::VectorXcd& mean, const Eigen::VectorXcd& whirl) {
     Eigen::MatrixXd series(samples, mean.size());
     for (int k = 0; k < samples; ++k)
@@ -202,7 +180,7 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
     }
     return whole.fullPivLu().solve(block.c);
   };
-  Eigen::MatrixXd u = sampled(free(rest, 0), free(turning, speed));
+  Eigen::MatrixXd u = sampled(free(rest, 0), free(whirling, speed));
   bool is_free = u.allFinite();
   for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
     is_free =
@@ -210,50 +188,32 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
     k += 2;
   }
   if (is_free) return u;
-  const JointForces rigid = rigid_joint_forces(bodies_, rotor_speed(parameters, omega));
+  const JointForces rigid = rigid_joint_forces(bodies_, speed);
   u = sampled(rigid.rest.cast<Complex>(), rigid.whirl);
   for (Eigen::Index k = 0; k < samples; ++k)
     u.row(k) = quasi_static_contacts(parameters, u.row(k).transpose());
   return u;
 }
 
-/** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces
-    with the spring k taken off. */
-template <class Answer>
-static Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
-                                 Eigen::Index rows, Answer answer)
-{
-  const auto columns = motion.harmonics.coefficients();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), joints, columns);
-  Eigen::MatrixXd series(rows, columns);
-  for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const auto push = [&](Complex spring) -> Eigen::VectorXcd {
-      return amplitude(motion.force, h) - spring * amplitude(u, h);
-    };
-    put_amplitude(series, h, answer(motion.harmonics.list()[h], push));
-  }
-  return series;
-}
-
 Eigen::MatrixXd MatrixMachine::shown_series(const Parameters& parameters,
                                             const PeriodicMotion& motion) const
 {
-  return series_of(motion, bodies_.joints.cols(), bodies_.shown,
-                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const Answers at = answers_of(bodies_, parameters, motion.omega, h);
-                     return at.driven - at.to_forces * push(at.spring);
-                   });
+  return series_of(motion, bodies_.shown, [&](Harmonic h, auto& force, auto& u) {
+    const Answers at = answers_of(bodies_, parameters, motion.omega, h);
+    const Eigen::VectorXcd push = force - at.spring * u;
+    return Eigen::VectorXcd(at.driven - at.to_forces * push);
+  });
 }
 
 Eigen::MatrixXd MatrixMachine::all_series(const Parameters& parameters,
                                           const PeriodicMotion& motion) const
 {
   const Eigen::MatrixXd& d = bodies_.joints;
-  return series_of(motion, d.cols(), d.rows(),
-                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const HarmonicAlone at(bodies_, parameters, motion.omega, h);
-                     return at.factors.solve(at.load - d * push(at.spring));
-                   });
+  return series_of(motion, d.rows(), [&](Harmonic h, auto& force, auto& u) {
+    const HarmonicAlone at(bodies_, parameters, motion.omega, h);
+    const Eigen::VectorXcd push = force - at.spring * u;
+    return Eigen::VectorXcd(at.factors.solve(at.load - d * push));
+  });
 }
 
 }  // namespace rotor_stator

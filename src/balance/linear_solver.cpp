@@ -67,10 +67,6 @@ Gmres::Report Gmres::solve(const Operator& apply, const Operator& precondition,
 
 namespace {
 
-/** Harmonics whose coupling through the contact is weaker than this leave the dense
-    block. */
-constexpr double weak_coupling = 1;
-
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
@@ -103,7 +99,7 @@ void BalanceSolver::factor(const Eigen::VectorXd& x, double omega)
   const int two = 2 * balance_.problem().dofs, all = balance_.harmonics().count();
   low_ = all;
   if (!is_dense_ && all > least_low_ && balance_.unknowns() > most_direct_unknowns) {
-    low_ = std::min(balance_.highest_coupled(x, omega, weak_coupling), most_low);
+    low_ = std::min(balance_.highest_coupled(x, omega), most_low);
     low_ = std::max(least_low_, low_);
     if (low_ >= most_low_share * all) low_ = all;
   }
@@ -165,11 +161,8 @@ Solved BalanceSolver::solve(const Eigen::VectorXd& x, double omega,
   const bool is_solved = report.residual <= goal;
   is_factored_ =
       is_solved && report.iterations <= std::max(many_iterations, 2 * fresh_iterations_);
-  if (is_solved) return Solved::iteratively;
-  if (are_new) {
-    if (low_ >= largest_low(balance_)) return Solved::poorly;
-    least_low_ = 2 * low_;
-  }
+  if (is_solved || (are_new && low_ >= largest_low(balance_))) return Solved::iteratively;
+  if (are_new) least_low_ = 2 * low_;
   return solve(x, omega, b, goal, s);
 }
 

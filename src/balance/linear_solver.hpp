@@ -54,8 +54,8 @@ harmonic, with the contact's mean stiffness. Factors are kept until they need to
 iterations. */
 
 /** How a solution was found: by the factors of this point; by those of an earlier one,
-    which leaves an error of their distance; by GMRES; or not, by GMRES. */
-enum class Solved { directly, by_old_factors, iteratively, poorly };
+    which leaves an error of their distance; or by GMRES, as well as it could. */
+enum class Solved { directly, by_old_factors, iteratively };
 
 class BalanceSolver {
 public:

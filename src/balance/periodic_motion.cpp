@@ -45,15 +45,15 @@ std::string NewtonReport::reason() const
 Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& from,
                         const Harmonics& to)
 {
-  std::map<std::pair<double, double>, Eigen::Index> place;
-  for (Eigen::Index h = 0; const auto& [k_1, k_2] : from.list()) place[{k_1, k_2}] = h++;
+  std::map<Harmonic, Eigen::Index> place;
+  for (Harmonic one : from.list()) place.emplace(one, std::ssize(place));
   const auto part = [dofs](auto& coefficients, Eigen::Index h) {
     return coefficients.segment(h == 0 ? 0 : (2 * h - 1) * dofs,
                                 h == 0 ? dofs : 2 * dofs);
   };
   Eigen::VectorXd y = Eigen::VectorXd::Zero(to.coefficients() * dofs);
-  for (Eigen::Index h = 0; const auto& [k_1, k_2] : to.list()) {
-    const auto at = place.find({k_1, k_2});
+  for (Eigen::Index h = 0; Harmonic one : to.list()) {
+    const auto at = place.find(one);
     if (at != place.end()) part(y, h) = part(x, at->second);
     ++h;
   }

@@ -6,6 +6,7 @@ list of harmonics, and how they were found. */
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ using Images = std::vector<int>;
 struct Harmonic {
   double k_1, k_2;
 
-  bool operator==(const Harmonic&) const = default;
+  auto operator<=>(const Harmonic&) const = default;
 };
 
 /** With two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), which

@@ -25,14 +25,13 @@ double order_of(Harmonic h, const Bearing& bearing)
 
 /** One of each pair of opposite ones, that of positive order, ascending after the
     mean. */
-static Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
-                           const Bearing& bearing)
+static Harmonics ascending(const std::set<Harmonic>& pairs, const Bearing& bearing)
 {
   std::vector<Harmonic> list;
-  for (const auto& [k_1, k_2] : pairs) {
-    const double order = order_of({k_1, k_2}, bearing);
-    if (order > 0 || (order == 0 && (k_2 > 0 || (k_2 == 0 && k_1 >= 0))))
-      list.push_back({k_1, k_2});
+  for (Harmonic h : pairs) {
+    const double order = order_of(h, bearing);
+    if (order > 0 || (order == 0 && (h.k_2 > 0 || (h.k_2 == 0 && h.k_1 >= 0))))
+      list.push_back(h);
   }
   std::ranges::stable_sort(list, {}, [&](Harmonic h) { return order_of(h, bearing); });
   const auto mean = std::ranges::find(list, Harmonic{0, 0});
@@ -42,9 +41,9 @@ static Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
 
 Harmonics orders_up_to(int m, const Bearing& bearing)
 {
-  std::set<std::pair<double, double>> pairs;
-  for (int k_2 = -m; k_2 <= m; ++k_2)
-    for (int k_1 = std::abs(k_2) - m; k_1 <= m - std::abs(k_2); ++k_1)
+  std::set<Harmonic> pairs;
+  for (double k_2 = -m; k_2 <= m; ++k_2)
+    for (double k_1 = std::abs(k_2) - m; k_1 <= m - std::abs(k_2); ++k_1)
       pairs.insert({k_1, k_2});
   return ascending(pairs, bearing);
 }
@@ -59,7 +58,7 @@ Harmonics joined(const Harmonics& first, const Harmonics& others)
 
 Harmonics up_to(double order, int passages, const Bearing& bearing, Harmonic half)
 {
-  std::set<std::pair<double, double>> pairs;
+  std::set<Harmonic> pairs;
   for (const Harmonic moved : {Harmonic{}, half})
     for (double k_2 = moved.k_2 - passages; k_2 <= passages; ++k_2) {
       const double passing = k_2 * passages_per_turn(bearing);

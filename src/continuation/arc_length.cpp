@@ -10,7 +10,7 @@ namespace rotor_stator {
 namespace {
 
 constexpr double fold_tolerance = 1e-8;  // of the folds' speeds, relative
-constexpr double least_step = 1e-7;
+constexpr double first_step = 0.01, least_step = 1e-7;
 constexpr std::size_t most_points = 100000;
 
 /** What the step shrinks above and grows below, and what takes it back: κ, α and β. */
@@ -80,7 +80,7 @@ struct Walk {
   SpeedRange range;
   std::function<void(const BranchPoint&)> watch;
   Corrector corrector{curve};
-  double step = curve.settings().first_step, factor = 1;
+  double step = first_step, factor = 1;
   long evaluations_before = curve.evaluations();
   bool positive = true, next_positive = true;  ///< sign of the determinant
   std::string refusal = {};                    ///< why the last step was shortened

@@ -109,10 +109,10 @@ Correction Corrector::correct(const Eigen::VectorXd& direction,
 
 /** The tangent at y, from a guess, by factors of another point. False where that is too
     far away. */
-bool Corrector::refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& tangent)
+bool Corrector::refine(const Eigen::VectorXd& y, Eigen::VectorXd& tangent)
 {
   constexpr int most = 4;
-  constexpr double most_left = 0.1;
+  constexpr double most_left = 0.1, error = 1e-6;
   const double scale = curve_.residual_scale();
   double before = 0;
   tangent /= scale * last_row_.dot(tangent);
@@ -131,12 +131,11 @@ bool Corrector::refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& 
 
 Tangent Corrector::tangent(const Eigen::VectorXd& y, const Eigen::VectorXd& previous)
 {
-  constexpr double small = 1e-6;
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
   Eigen::VectorXd direction;
   const bool has_row = last_row_.size() == previous.size() && last_row_ == previous;
   if (has_row) direction = factors_.solve(right);
-  if (!has_row || !refine(y, small, direction)) {
+  if (!has_row || !refine(y, direction)) {
     factor(y, previous);
     direction = factors_.solve(right);
   }

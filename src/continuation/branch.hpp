@@ -89,7 +89,7 @@ public:
 
 private:
   void factor(const Eigen::VectorXd& y, const Eigen::VectorXd& last_row);
-  bool refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& tangent);
+  bool refine(const Eigen::VectorXd& y, Eigen::VectorXd& tangent);
 
   Curve& curve_;
   Eigen::Index n_;

@@ -12,27 +12,24 @@ void LagrangePredictor::add(Eigen::VectorXd x, double omega)
   const Eigen::Index longest =
       empty() ? x.size() : std::max(x.size(), points_.back().x.size());
   x.conservativeResizeLike(Eigen::VectorXd::Zero(longest));
-  for (PeriodicMotion& point : points_)
+  for (Point& point : points_)
     point.x.conservativeResizeLike(Eigen::VectorXd::Zero(longest));
-  arc_.push_back(empty() ? 0
-                         : arc_.back() +
-                               std::hypot((x - points_.back().x).norm() / unknown_scale_,
-                                          (omega - points_.back().omega) / speed_scale_));
-  points_.push_back({.omega = omega, .x = std::move(x)});
-  if (points_.size() > 4) {
-    points_.pop_front();
-    arc_.pop_front();
-  }
+  double arc = 0;
+  if (!empty())
+    arc = points_.back().arc + std::hypot((x - points_.back().x).norm() / unknown_scale_,
+                                          (omega - points_.back().omega) / speed_scale_);
+  points_.push_back({std::move(x), omega, arc});
+  if (points_.size() > 4) points_.pop_front();
 }
 
 /** Lagrange weights Π_{j≠i} (s - S_j)/(S_i - S_j). */
 Eigen::VectorXd LagrangePredictor::weights(double s) const
 {
-  const auto n = arc_.size();
+  const auto n = points_.size();
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      if (i != j) weight[i] *= (s - arc_[j]) / (arc_[i] - arc_[j]);
+      if (i != j) weight[i] *= (s - points_[j].arc) / (points_[i].arc - points_[j].arc);
   return weight;
 }
 
@@ -46,7 +43,7 @@ double LagrangePredictor::speed_at(double s) const
 
 PeriodicMotion LagrangePredictor::at_arc(double delta_s) const
 {
-  const double s = arc_.back() + delta_s;
+  const double s = points_.back().arc + delta_s;
   const Eigen::VectorXd weight = weights(s);
   PeriodicMotion point{.omega = speed_at(s),
                        .x = Eigen::VectorXd::Zero(points_.back().x.size())};
@@ -56,16 +53,16 @@ PeriodicMotion LagrangePredictor::at_arc(double delta_s) const
 
 Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
 {
-  const PeriodicMotion& last = points_.back();
+  const Point& last = points_.back();
   if (points_.size() < 2) return last.x;
 
   /** Secant iterations on ω(S) = ω, started by the last chord. When they leave the
      neighbourhood (the curve turns back) the last point is the best guess there is. */
-  const PeriodicMotion& before = points_[points_.size() - 2];
-  const double step = arc_.back() - arc_[arc_.size() - 2];
+  const Point& before = points_[points_.size() - 2];
+  const double step = last.arc - before.arc;
   const double guess = step * (omega - last.omega) / (last.omega - before.omega);
   if (!std::isfinite(guess)) return last.x;
-  double s_0 = arc_.back(), f_0 = last.omega - omega;
+  double s_0 = last.arc, f_0 = last.omega - omega;
   double s_1 = s_0 + guess;
   for (int iteration = 0; iteration < 8; ++iteration) {
     const double f_1 = speed_at(s_1) - omega;
@@ -74,9 +71,9 @@ Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
     s_0 = s_1;
     f_0 = f_1;
     s_1 = s_2;
-    if (!(std::abs(s_1 - arc_.back()) <= 4 * std::abs(guess))) return last.x;
+    if (!(std::abs(s_1 - last.arc) <= 4 * std::abs(guess))) return last.x;
   }
-  return at_arc(s_1 - arc_.back()).x;
+  return at_arc(s_1 - last.arc).x;
 }
 
 namespace {

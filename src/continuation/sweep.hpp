@@ -38,7 +38,7 @@ public:
 
   /** Of coefficients that differ in number the shorter are filled with zeros. */
   void add(Eigen::VectorXd x, double omega);
-  void clear() { points_.clear(), arc_.clear(); }
+  void clear() { points_.clear(); }
   bool empty() const { return points_.empty(); }
 
   /** Eq. 20 at S_3 + Δs: the extrapolated (X, ω). */
@@ -52,8 +52,11 @@ private:
   double speed_at(double s) const;
 
   double unknown_scale_, speed_scale_;
-  std::deque<PeriodicMotion> points_;  ///< at most four
-  std::deque<double> arc_;             ///< S_i (Eq. 21)
+  struct Point {
+    Eigen::VectorXd x;
+    double omega, arc;  ///< S_i (Eq. 21)
+  };
+  std::deque<Point> points_;  ///< at most four
 };
 
 /**
@@ -70,7 +73,7 @@ struct ArcLengthSettings {
   NewtonSettings newton;
   double speed_scale;        ///< ω_ref [rad/s]
   double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
-  double first_step = 0.01, most_step = 0.05;
+  double most_step = 0.05;
   long most_evaluations = 1000000;  ///< of the force: the bound on work
 };
 

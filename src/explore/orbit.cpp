@@ -396,16 +396,16 @@ Exploration explore_contact(const MotionRequest& request)
   for (std::size_t b = 0; b < bearings; ++b) {
     const motion::Motion& motion = at.motion;
     const Bearing one = bearings_of(at.machine)[b];
-    const auto [times, forces] = motion::contact_evolution(at.machine, motion, 2, b);
-    for (std::size_t k = 0; k < times.size(); ++k)
-      for (std::size_t j = 0; j < forces[k].size(); ++j) {
-        const double q = forces[k][j];
+    const auto forces = motion::ball_forces(at.machine, motion, 2, b);
+    for (Eigen::Index k = 0; k < forces.rows(); ++k)
+      for (Eigen::Index j = 0; j < forces.cols(); ++j) {
+        const double q = forces(k, j), time = motion.t_over_period(k);
         const double angle = one.cage_angle(motion.phase(k)) / angular(1) +
                              static_cast<double>(j) / one.balls;
-        std::vector<Cell> row{times[k],
+        std::vector<Cell> row{time,
                               j + 1,
                               q,
-                              times[k] / at.base_frequency,
+                              time / at.base_frequency,
                               angular(angle - std::floor(angle)),
                               1e-6 * one.pressure * std::cbrt(q)};
         if (bearings > 1) row.insert(row.begin() + 1, b + 1);

@@ -18,7 +18,7 @@ struct Row {
   double t_over_period;
   Bodies at = {};
   Vec2 force = {};
-  std::size_t ball = 0;
+  Eigen::Index ball = 0;
   double ball_force = 0;
 };
 using Fields = std::vector<Field<Row>>;
@@ -188,14 +188,14 @@ Table contacts(SceneFile& file, Find find)
       "modelled: the force of every ball over two periods, of the harmonic-balance "
       "solution or of the integrated motion, as the column `shown` says");
   for (const Panel& panel : panels_of(scene, find)) {
-    const auto all = motion::contact_evolution(scene.parameters, panel.shown());
-    for (std::size_t k = 0; k < all.t_over_period.size(); ++k)
-      for (std::size_t j = 0; j < all.ball_force[k].size(); ++j)
+    const auto forces = motion::ball_forces(scene.parameters, panel.shown());
+    for (Eigen::Index k = 0; k < forces.rows(); ++k)
+      for (Eigen::Index j = 0; j < forces.cols(); ++j)
         table.row(contact_fields, {.panel = panel,
                                    .source = panel.shows_balance() ? 1 : 2,
-                                   .t_over_period = all.t_over_period[k],
+                                   .t_over_period = panel.shown().t_over_period(k),
                                    .ball = j + 1,
-                                   .ball_force = all.ball_force[k][j]});
+                                   .ball_force = forces(k, j)});
     table.note(panel.ending);
   }
   return table;

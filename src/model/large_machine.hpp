@@ -101,8 +101,7 @@ public:
   /** Of the mass that moves with a joint at once, 1/(dᵀ M⁻¹ d). */
   double quickest_contact(const Parameters& parameters) const override;
 
-  void put_equations(const Parameters& parameters, const TorusLine& line,
-                     Problem& problem) const override;
+  void put_equations(const Parameters& parameters, Problem& problem) const override;
   Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
                                 int samples) const override;
   Eigen::MatrixXd shown_series(const Parameters& parameters,

@@ -31,7 +31,6 @@ class Flow;
 struct StepSettings;
 struct PeriodMap;
 struct Problem;
-struct TorusLine;
 struct PeriodicMotion;
 
 /** How long a person waits for it, unless a budget is given. */
@@ -85,9 +84,8 @@ public:
   /**
   ## In harmonics (balance/bearing_problem.cpp) */
 
-  /** The unknowns, blocks and force of the balance along a line of the torus. */
-  virtual void put_equations(const Parameters& parameters, const TorusLine& line,
-                             Problem& problem) const;
+  /** The unknowns and blocks of the balance, and the operations of its force. */
+  virtual void put_equations(const Parameters& parameters, Problem& problem) const;
 
   /** Samples of the relative motion [m] without contact where it stays inside the
       clearances, else in quasi-static contact, N × 2 for each bearing. */

@@ -202,16 +202,6 @@ void rest(Answer& answer, const Request& request)
   answer.error_note = "static equilibrium";
 }
 
-/** Nothing but the machine that counts its base periods. */
-Answer begun(const Question& question)
-{
-  Answer answer{.base = base_period(question.parameters), .settled = {}};
-  Based based = over(answer.base, question.parameters, question.request.omega);
-  answer.machine = std::move(based.machine);
-  answer.omega = based.omega;
-  return answer;
-}
-
 std::unique_ptr<Settling> settling(const Question& question, const Answer& at)
 {
   const Request& request = question.request;
@@ -234,7 +224,13 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
   std::vector<Attempt<Answer>> answers;
   std::vector<Attempt<std::unique_ptr<Settling>>> settlings;
   for (const Question& question : questions) {
-    answers.push_back(attempt([&] { return begun(question); }));
+    answers.push_back(attempt([&] {
+      Answer answer{.base = base_period(question.parameters), .settled = {}};
+      Based based = over(answer.base, question.parameters, question.request.omega);
+      answer.machine = std::move(based.machine);
+      answer.omega = based.omega;
+      return answer;
+    }));
     settlings.push_back(
         attempt([&] { return settling(question, answers.back().get()); }));
   }

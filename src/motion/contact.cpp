@@ -7,27 +7,17 @@
 
 namespace rotor_stator::motion {
 
-static double share_of_any(const std::vector<BearingInstants>& bearings,
-                           const Motion& motion)
+double contact_share(const Parameters& parameters, const Motion& motion,
+                     std::optional<std::size_t> bearing)
 {
+  std::vector<BearingInstants> bearings;
+  for (std::size_t b = bearing.value_or(0);
+       b <= bearing.value_or(parameters.further.size()); ++b)
+    bearings.emplace_back(parameters, motion, b);
   std::size_t loaded = 0;
   for (std::size_t k = 0; k < motion.size(); ++k)
     loaded += std::ranges::any_of(bearings, [k](auto& at) { return at.touches(k); });
   return static_cast<double>(loaded) / static_cast<double>(motion.size());
-}
-
-double contact_share(const Parameters& parameters, const Motion& motion)
-{
-  std::vector<BearingInstants> bearings;
-  for (std::size_t b = 0; b <= parameters.further.size(); ++b)
-    bearings.emplace_back(parameters, motion, b);
-  return share_of_any(bearings, motion);
-}
-
-double contact_share(const Parameters& parameters, const Motion& motion,
-                     std::size_t bearing)
-{
-  return share_of_any({BearingInstants(parameters, motion, bearing)}, motion);
 }
 
 bool touches(const Parameters& parameters, PeriodicMotion solution)
@@ -38,40 +28,36 @@ bool touches(const Parameters& parameters, PeriodicMotion solution)
   return contact_share(parameters, motion_of(parameters, solution, points, turns)) > 0;
 }
 
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods, std::size_t bearing)
+Eigen::MatrixXd ball_forces(const Parameters& parameters, const Motion& motion,
+                            long periods, std::size_t bearing)
 {
   const BearingInstants at(parameters, motion, bearing);
-  ContactEvolution evolution;
-  for (long k = 0; k < periods * motion.points_per_period; ++k) {
-    evolution.t_over_period.push_back(motion.t_over_period(k));
-    evolution.ball_force.push_back(
-        at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)));
-  }
-  return evolution;
+  Eigen::MatrixXd forces(periods * motion.points_per_period,
+                         joints_of(parameters)[bearing].balls);
+  for (Eigen::Index k = 0; k < forces.rows(); ++k)
+    std::ranges::copy(at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)),
+                      forces.row(k).begin());
+  return forces;
 }
 
 double largest_ball_load(const Parameters& parameters, const Motion& motion,
                          std::size_t bearing)
 {
   const auto periods = std::ssize(motion.positions) / motion.points_per_period;
-  const auto loads = contact_evolution(parameters, motion, periods, bearing).ball_force;
-  const auto top =
-      std::ranges::max_element(loads, {}, [](auto& at) { return std::ranges::max(at); });
-  const auto ball = std::ranges::max_element(*top) - top->begin();
-  Eigen::VectorXd along(std::ssize(loads));
-  std::transform(loads.begin(), loads.end(), along.begin(),
-                 [ball](auto& at) { return at[ball]; });
-  return largest_of(along, false);
+  const Eigen::MatrixXd loads = ball_forces(parameters, motion, periods, bearing);
+  Eigen::Index top, ball;
+  loads.rowwise().maxCoeff().maxCoeff(&top);
+  loads.row(top).maxCoeff(&ball);
+  return largest_of(loads.col(ball), false);
 }
 
-std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
+std::vector<int> passages_per_ball(const Eigen::MatrixXd& forces)
 {
-  std::vector<int> passages(ball_force.front().size(), 0);
-  for (std::size_t k = 0; k < ball_force.size(); ++k) {
-    const auto& before = ball_force[(k + ball_force.size() - 1) % ball_force.size()];
-    for (std::size_t j = 0; j < passages.size(); ++j)
-      if (before[j] == 0 && ball_force[k][j] > 0) ++passages[j];
+  std::vector<int> passages(forces.cols(), 0);
+  for (Eigen::Index k = 0; k < forces.rows(); ++k) {
+    const Eigen::Index before = (k == 0 ? forces.rows() : k) - 1;
+    for (Eigen::Index j = 0; j < forces.cols(); ++j)
+      if (forces(before, j) == 0 && forces(k, j) > 0) ++passages[j];
   }
   return passages;
 }

@@ -6,29 +6,25 @@ the rotating contact passes each ball once in 2T (D-11, D-20); for other bearing
 periods are a convention. */
 #pragma once
 
+#include <optional>
+
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
 
 /** Share of the instants with at least one loaded ball, of any bearing; of one of them,
     counted from 0 [-]. */
-double contact_share(const Parameters& parameters, const Motion& motion);
 double contact_share(const Parameters& parameters, const Motion& motion,
-                     std::size_t bearing);
+                     std::optional<std::size_t> bearing = {});
 
 /** Whether any ball is loaded in a solution of harmonic balance. */
 bool touches(const Parameters& parameters, PeriodicMotion solution);
 
-/** Ball forces at P instants per period. */
-struct ContactEvolution {
-  std::vector<double> t_over_period;            ///< 0 ≤ t/T < periods
-  std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
-};
-
-/** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
-    one period is repeated. `bearing` counts from 0. */
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods = 2, std::size_t bearing = 0);
+/** Q_j [N] at P instants per period, a row each. Ball j stands where Eq. 3 puts it, with
+    t counted as the motion counts it. A motion of one period is repeated. `bearing`
+    counts from 0. */
+Eigen::MatrixXd ball_forces(const Parameters& parameters, const Motion& motion,
+                            long periods = 2, std::size_t bearing = 0);
 
 /** The largest force on a ball along a motion, where three instants of that ball lie on a
     parabola [N]. */
@@ -36,6 +32,6 @@ double largest_ball_load(const Parameters& parameters, const Motion& motion,
                          std::size_t bearing = 0);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */
-std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);
+std::vector<int> passages_per_ball(const Eigen::MatrixXd& forces);
 
 }  // namespace rotor_stator::motion

@@ -33,15 +33,6 @@ Shooting shot(const BalanceSearch& search, int turns, State& state, double local
                 .budget = search.budget});
 }
 
-Motion record(const BalanceSearch& search, int turns, const State& state, int points,
-              double local_error)
-{
-  return one_period(over_turns(search.parameters, turns), search.omega / turns, state,
-                    {.intervals_per_period = points * turns,
-                     .tolerance = local_error,
-                     .budget = search.budget});
-}
-
 /** Where the machine settles from rest under the constant loads. */
 Settled settled_from_load(const BalanceSearch& search)
 {
@@ -175,6 +166,12 @@ ClosedMotion closed_motion(const BalanceSearch& search, int points, double local
 {
   require_rotation_period(search.parameters, "shooting");
   const int turns = search.turns;
+  const auto record = [&](const State& state, double error) {
+    return one_period(over_turns(search.parameters, turns), search.omega / turns, state,
+                      {.intervals_per_period = points * turns,
+                       .tolerance = error,
+                       .budget = search.budget});
+  };
   std::string why = "no start";
   for (const auto& [name, states] : starts_of(search))
     for (State state : states()) {
@@ -182,9 +179,9 @@ ClosedMotion closed_motion(const BalanceSearch& search, int points, double local
       why = "from " + name + ": " + shooting.reason;
       if (!shooting.converged) continue;
       State finer = state;
-      const Motion motion = record(search, turns, state, points, local_error);
+      const Motion motion = record(state, local_error);
       if (!shot(search, turns, finer, 0.01 * local_error).converged) finer = state;
-      const Motion exact = record(search, turns, finer, points, 0.01 * local_error);
+      const Motion exact = record(finer, 0.01 * local_error);
       return {name,          state,
               motion,        shooting.correction,
               shooting.maps, difference(motion, exact)};

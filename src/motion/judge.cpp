@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/find.hpp"
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 
@@ -205,8 +206,8 @@ struct Search {
     const double away = closer.apart(motion, start);
     if (!(away <= near * own_distance + floor)) {
       reason = "the motion of its period found from it is too far away to be its own";
-      refused_distance =
-          away * closer.size / std::max(largest_displacement(judged), 1e-300);
+      const double largest = displacement_samples(judged).cwiseAbs().maxCoeff();
+      refused_distance = away * closer.size / std::max(largest, 1e-300);
       return;
     }
     try {
@@ -229,14 +230,14 @@ struct Search {
   try {
     const int m = 4 * solution.harmonics.count(), most = 192 * parameters.turns;
     if (m > most) return start;
-    Balance balance(bearing_problem(parameters, fast_transform_size(8 * m + 1), budget),
-                    m);
-    PeriodicMotion more = solve(balance, solution.omega,
-                                resize_harmonics(solution.x, balance.problem().dofs, m));
+    const PeriodicMotion more = find_from({.parameters = parameters,
+                                           .omega = solution.omega,
+                                           .harmonics = m,
+                                           .samples = fast_transform_size(8 * m + 1),
+                                           .budget = budget},
+                                          "fewer harmonics", solution.x);
     closer.evaluations += static_cast<double>(more.force_samples);
-    if (!more.found()) return start;
-    more.bodies = body_series(parameters, more);
-    return eighths_of(parameters, more);
+    return more.found() ? eighths_of(parameters, more) : start;
   } catch (const NoSolution&) {
     return start;
   }

@@ -12,7 +12,6 @@
 #include <Eigen/Cholesky>
 
 #include "balance/fourier_transform.hpp"
-#include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 
@@ -51,8 +50,7 @@ Lines lines_of(const Bearing& bearing, const PeriodicMotion& solution, int turns
 {
   std::vector<double> orders;
   for (const Harmonic& h : solution.harmonics.list())
-    orders.push_back(order_of({h.k_1, 0}, bearing) / turns +
-                     order_of({0, h.k_2}, bearing));
+    orders.push_back(h.k_1 / turns + h.k_2 * passages_per_turn(bearing));
   return lines_of(solution.bodies, orders);
 }
 
@@ -123,12 +121,6 @@ struct Record {
       squares += transform.spectrum(weighted).cwiseAbs2();
     }
     return squares.cwiseSqrt();
-  }
-
-  double rest() const
-  {
-    const double all = (samples.rowwise() - samples.colwise().mean()).norm();
-    return all > 0 ? left.norm() / all : 0;
   }
 
   /** Σ_k e^{2πi bk/N} */
@@ -228,7 +220,9 @@ Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& moti
   }
   record.fit();
   Lines all = lines_of(record.series, orders);
-  all.rest = record.rest();
+  const Eigen::MatrixXd& q = record.samples;
+  const double vibration = (q.rowwise() - q.colwise().mean()).norm();
+  all.rest = vibration > 0 ? record.left.norm() / vibration : 0;
   return all;
 }
 
@@ -311,15 +305,6 @@ std::optional<Sum> sum_of(double order, const Bearing& bearing, double tolerance
   return best;
 }
 
-LineName multiple_of(const char* symbol, double order, double unit, int most,
-                     double tolerance)
-{
-  const double multiple = std::round(order / unit);
-  if (multiple < 1 || multiple > most || std::abs(order - multiple * unit) > tolerance)
-    return {};
-  return {0, 0, 0, term(static_cast<int>(multiple), 1, symbol)};
-}
-
 /** Of a damaged ball, which meets a race every half turn and stands elsewhere each time:
     2s BSF + j FTF + h X, if shorter than `length`. */
 std::optional<LineName> name_of_spin(double order, const Bearing& bearing,
@@ -363,13 +348,17 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
       return *spin;
   if (sum) return sum->name(bearing.balls);
   const KinematicOrders orders = kinematic_orders(bearing);
-  LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
-  name.cage = std::round(order / orders.cage);
-  if (name.name.empty() && orders.spin > 0) {
-    name = multiple_of("BSF", order, orders.spin, 4, tolerance);
-    name.spin = std::round(order / orders.spin);
+  for (const auto& [symbol, unit, most, part] :
+       {std::tuple{"FTF", orders.cage, bearing.balls, &LineName::cage},
+        {"BSF", orders.spin, 4, &LineName::spin}}) {
+    const double multiple = std::round(order / unit);
+    if (!(multiple >= 1 && multiple <= most &&
+          std::abs(order - multiple * unit) <= tolerance))
+      continue;
+    LineName name{.name = term(static_cast<int>(multiple), 1, symbol)};
+    name.*part = multiple;
+    return name;
   }
-  if (!name.name.empty()) return name;
   /** A torus that has doubled has halves of both; as many would name anything. */
   if (!is_periodic)
     if (const auto halves = sum_of(order, bearing, tolerance, 2, 2, passages / 8))

@@ -326,11 +326,6 @@ Displacements rms_of(const Motion& motion)
   return rms;
 }
 
-double largest_displacement(const Motion& motion)
-{
-  return displacement_samples(motion).cwiseAbs().maxCoeff();
-}
-
 double relative_difference(const Motion& motion, const Motion& reference)
 {
   double difference = 0, size = 0;

@@ -144,9 +144,6 @@ Displacements half_peak_to_peak(const Motion& motion);
 Displacements mean_of(const Motion& motion);
 Displacements rms_of(const Motion& motion);
 
-/** The largest displacement of either body [m]. */
-double largest_displacement(const Motion& motion);
-
 /** The largest difference over the four displacements, over the largest displacement of
     `reference`, on the first period of both [-]; both have the same points per period. */
 double relative_difference(const Motion& motion, const Motion& reference);

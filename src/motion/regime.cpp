@@ -61,23 +61,18 @@ static SteadyRun run_of(const Parameters& parameters, double frequency,
 
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods)
 {
-  const auto ball_force = contact_evolution(parameters, two_periods).ball_force;
-  const auto passages = passages_per_ball(ball_force);
+  const Eigen::MatrixXd forces = ball_forces(parameters, two_periods);
+  const auto passages = passages_per_ball(forces);
   const auto balls = static_cast<double>(passages.size());
-  double loaded = 0, largest = 0;
-  for (const auto& forces : ball_force)
-    for (double q : forces) {
-      loaded += q > 0;
-      largest = std::max(largest, q);
-    }
+  const auto loaded = static_cast<double>((forces.array() > 0).count());
   RegimeMeasures measures{higher_harmonics(two_periods)};
   measures.contact = contact_share(parameters, two_periods);
   measures.turns = turns_of(bearing_forces(parameters, two_periods)) / 2;
   measures.passed_once = std::ranges::count(passages, 1) == std::ssize(passages);
   measures.passages = std::accumulate(passages.begin(), passages.end(), 0.0) / balls;
   measures.loaded_arc =
-      loaded / static_cast<double>(ball_force.size()) * 2 * std::numbers::pi / balls;
-  measures.largest_force = largest;
+      loaded / static_cast<double>(forces.rows()) * 2 * std::numbers::pi / balls;
+  measures.largest_force = std::max(0.0, forces.maxCoeff());
   measures.amp_x_r = half_peak_to_peak(two_periods)[2];
   return measures;
 }
@@ -135,16 +130,6 @@ std::vector<Regime> regimes_of(const Parameters& parameters,
     progress.step();
   });
   return regimes;
-}
-
-RegimeSettings read_regime_settings(SceneFile& scene)
-{
-  StrictToml table = scene.toml().table("regime");
-  return {.step_over_default = table.number("step_over_default", Range::positive),
-          .longest = table.number("longest_s", Range::positive),
-          .window = table.number("window_s", Range::positive),
-          .average = table.number("average_s", Range::positive),
-          .points_per_period = table.integer("points_per_period", 4, 4096)};
 }
 
 }  // namespace rotor_stator::motion

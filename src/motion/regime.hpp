@@ -8,12 +8,11 @@ balance finds a periodic solution, integration starts from it; this shortens the
 transient, and selects the motion where several exist. */
 #pragma once
 
-#include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
 
-/** How the motion of a regime is integrated, by rk4: the table [regime] of a scene. */
+/** How the motion of a regime is integrated, by rk4. */
 struct RegimeSettings {
   double step_over_default;  ///< RK4's step over `default_step` [-]
   double longest;            ///< integration at most [s]
@@ -21,7 +20,6 @@ struct RegimeSettings {
   double average;            ///< at least so long an aperiodic motion is recorded [s]
   int points_per_period;     ///< of the recorded motion
 };
-RegimeSettings read_regime_settings(SceneFile& scene);
 
 /** Of the first period of a motion, over the amplitude of the first harmonic, for the
     body where all are larger [-]; 0 for bodies at rest. */

@@ -2,6 +2,7 @@
  * paper/deviations.md quotes. */
 #include <fstream>
 #include <sstream>
+#include "continuation/sweep.hpp"
 #include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "model/hertz.hpp"
@@ -88,13 +89,16 @@ TEST_CASE("D-01: the printed sign is a negative stiffness that grows and has no 
 
 TEST_CASE("D-02: the printed predictor returns the last point exactly")
 {
-  std::vector<PeriodicMotion> known;
-  for (int k = 0; k < 4; ++k)
-    known.push_back(
-        {.omega = 100 + 1.7 * k, .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)});
-  const PeriodicMotion next = printed_prediction(known);
-  CHECK(next.x == known.back().x);
-  CHECK(next.omega == known.back().omega);
+  LagrangePredictor unscaled(1, 1);
+  PeriodicMotion last;
+  for (int k = 0; k < 4; ++k) {
+    last = {.omega = 100 + 1.7 * k,
+            .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)};
+    unscaled.add(last.x, last.omega);
+  }
+  const PeriodicMotion next = unscaled.at_arc(0);
+  CHECK(next.x == last.x);
+  CHECK(next.omega == last.omega);
 
   const auto list = printed_predictor(scene());
   CHECK(value(list, "D-02.moved_printed") == 0);
@@ -105,13 +109,13 @@ TEST_CASE("D-04, D-21: gamma with parentheses inverts the samples, and only so")
 {
   for (int m : {1, 3, 6}) {
     const int n = 2 * m + 1;
-    const auto defect = [&](Argument argument) {
-      return (gamma_matrix(m, n, argument) * gamma_inverse(m, n) -
+    const auto defect = [&](Form form) {
+      return (gamma_matrix(m, n, form) * gamma_inverse(m, n) -
               Eigen::MatrixXd::Identity(n, n))
           .norm();
     };
-    CHECK(defect(Argument::parenthesised) < 1e-13);
-    CHECK(defect(Argument::printed) > 0.1);
+    CHECK(defect(Form::corrected) < 1e-13);
+    CHECK(defect(Form::printed) > 0.1);
   }
   CHECK(value(names_of_gamma(scene()), "D-04.error_text") > 0.5);
 }
@@ -128,17 +132,17 @@ TEST_CASE("D-05: N = 13 for six harmonics has folds that N = 64 does not have")
 TEST_CASE("The plain equations have the solution of the condensed ones")
 {
   const Parameters p = set_1();
-  const auto solution = require_periodic(p, 30, 4, 32);
+  const auto solution = require_periodic({p, hertz(30), 4, 32});
   PlainBalance plain(p, hertz(30), 4, 32);
   const Eigen::VectorXd x = solution.bodies.reshaped();
   CHECK(plain.residual(x).norm() < 1e-6 * plain.load().norm());
-  CHECK(plain.corrected_step(x).norm() < 1e-8 * x.norm());
+  CHECK(plain.step(x).norm() < 1e-8 * x.norm());
 
   /** D-06: the printed step does not vanish there. */
-  CHECK(plain.printed_step(x).norm() > 1e-3 * x.norm());
+  CHECK(plain.step(x, Form::printed).norm() > 1e-3 * x.norm());
 
   /** D-12: nor is it a solution with the printed block, unless there is one harmonic. */
-  PlainBalance printed(p, hertz(30), 4, 32, FirstEntry::printed);
+  PlainBalance printed(p, hertz(30), 4, 32, Form::printed);
   CHECK(printed.residual(x).norm() > 1e-5 * printed.load().norm());
 }
 
@@ -146,7 +150,7 @@ TEST_CASE("The plain Jacobian is the slope of the plain residual")
 {
   const Parameters p = set_1();
   PlainBalance plain(p, hertz(12), 3, 32);
-  const Eigen::VectorXd x = require_periodic(p, 12, 3, 32).bodies.reshaped();
+  const Eigen::VectorXd x = require_periodic({p, hertz(12), 3, 32}).bodies.reshaped();
   const Eigen::MatrixXd jacobian = plain.at(x).jacobian;
   const double h = 1e-10;
   for (Eigen::Index k = 0; k < x.size(); ++k) {

@@ -65,8 +65,7 @@ TEST_CASE("Higher harmonics of a known motion")
 
 TEST_CASE("Passages are counted around the end of the two periods")
 {
-  const std::vector<std::vector<double>> force{
-      {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}};
+  const Eigen::MatrixXd force{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}};
   CHECK(passages_per_ball(force) == std::vector<int>{1, 1, 0});
 }
 
