@@ -12,14 +12,10 @@ from tables import run
 HALF = 0.5
 
 
-def of_ratio(rows, c):
-    return rows.where("c", c)
-
-
 def draw_difference(axes, rows, quantity):
     """From c = 1/2, relative, speed by speed: the median and the largest of the other ratios."""
-    half = of_ratio(rows, HALF)
-    others = np.array([np.abs(of_ratio(rows, c)[quantity] / half[quantity] - 1) for c in np.unique(rows["c"]) if c != HALF])
+    half = rows.where("c", HALF)
+    others = np.array([np.abs(rows.where("c", c)[quantity] / half[quantity] - 1) for c in np.unique(rows["c"]) if c != HALF])
     axes.plot(half["f"], others.max(axis=0), color="C1", label="largest")
     axes.plot(half["f"], np.median(others, axis=0), color="C0", label="median")
     axes.set(yscale="log", xlim=(0, 61), ylim=(1e-6, 10), xlabel="speed of rotation [Hz]")
@@ -30,7 +26,7 @@ def draw_shares(axes, rows):
     shares = {"solution found": lambda r: r["found"] == 1, "found and stable": lambda r: r["stable"] == 1,
               "contact always": lambda r: r["contact_share"] == 1}
     for (label, holds), marker in zip(shares.items(), "o^s"):
-        axes.plot(ratios, [holds(of_ratio(rows, c)).mean() for c in ratios], marker + "-", ms=5, label=label)
+        axes.plot(ratios, [holds(rows.where("c", c)).mean() for c in ratios], marker + "-", ms=5, label=label)
     axes.set(ylim=(0, 1.03), xlabel="cage ratio c [-]", ylabel="share of the speeds [-]")
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import draw_classes, draw_grid, over_keys
-from tables import cells_as_numbers, run
+from map import draw_classes, draw_grid
+from tables import cells_as_numbers, over_keys, run
 
 X, Y = KEYS = ["frequency", "bearing.radial_clearance_m"]
 NAMES = ["undecided", "quasi-periodic", "aperiodic", "K = 1", "K = 2", "K = 3", "K = 4", "K above 4"]

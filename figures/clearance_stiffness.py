@@ -14,10 +14,10 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import draw_grid, over_keys
+from map import draw_grid
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
-from tables import run
+from tables import over_keys, run
 
 NEVER = -1
 SETS = ("data/set1.toml", "data/set2.toml")

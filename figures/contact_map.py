@@ -15,6 +15,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
+from tables import over_keys
 
 BALANCE = 1
 COLOURS = 24
@@ -23,11 +24,7 @@ COLOURS = 24
 def force_map(panel):
     """Q as an array, a row per ball and a column per time, and the ends of the times."""
     times = np.unique(panel["t_over_T"])
-    balls = np.unique(panel["ball"])
-    force = np.empty((balls.size, times.size))
-    rows = np.searchsorted(balls, panel["ball"])
-    force[rows, np.searchsorted(times, panel["t_over_T"])] = panel["Q"]
-    return force, np.append(times, 2 * times[-1] - times[-2])
+    return over_keys(panel, panel["Q"], ("t_over_T", "ball")), np.append(times, 2 * times[-1] - times[-2])
 
 
 def area_of(cells, ends):

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.ticker import MaxNLocator
-from tables import cells_as_numbers, column_in_words, heading, run, with_subscripts
+from tables import cells_as_numbers, column_in_words, heading, over_keys, run, with_subscripts
 
 VERDICTS, REGIMES = ["stable", "unstable", "undecided"], ["rest", "periodic", "quasi-periodic", "chaotic", "undecided"]
 CLASSES = {"stability": VERDICTS, "series_stability": VERDICTS, "regime": REGIMES}
@@ -62,14 +62,6 @@ def classes_of(name, column):
     known = np.unique(values[np.isfinite(values)])
     place = np.where(np.isfinite(values), np.searchsorted(known, values), np.nan)
     return place, [PERIODS.get(k, f"period {k:g}") for k in known]
-
-
-def over_keys(table, values, keys):
-    """A number for each row as an array, a row for each value of the second key; NaN where there is no row."""
-    x, y = (np.unique(table[key]) for key in keys)
-    cells = np.full((y.size, x.size), np.nan)
-    cells[np.searchsorted(y, table[keys[1]]), np.searchsorted(x, table[keys[0]])] = values
-    return cells
 
 
 def edges_of(values):

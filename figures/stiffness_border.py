@@ -9,9 +9,9 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import draw_grid, over_keys
+from map import draw_grid
 from matplotlib.colors import LogNorm
-from tables import cells_as_numbers, run
+from tables import cells_as_numbers, over_keys, run
 
 X, Y = KEYS = ["bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"]
 BORDER, LEAST = 1, 1e-3  # %; smaller errors are drawn as this

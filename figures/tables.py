@@ -157,6 +157,14 @@ class Table:
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))
 
 
+def over_keys(table, values, keys):
+    """A number for each row as an array, a row for each value of the second key; NaN where there is no row."""
+    x, y = (np.unique(table[key]) for key in keys)
+    cells = np.full((y.size, x.size), np.nan)
+    cells[np.searchsorted(y, table[keys[1]]), np.searchsorted(x, table[keys[0]])] = values
+    return cells
+
+
 SYMBOL = re.compile(r"(?<![A-Za-z0-9])(?:[va]_)?[xy]_[rs](?:_[a-z0-9]+)*(?!\w)")
 
 

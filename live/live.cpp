@@ -9,6 +9,7 @@ What `explore` does, for the page: a question goes in as strings and numbers, on
 #include <fstream>
 
 #include "explore/response.hpp"
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
 #include "motion/contact.hpp"
@@ -28,20 +29,10 @@ EM_JS(void, show_point, (double f, double x_s, double y_s, double x_r, double y_
 /** Instants of a motion that is drawn, in base periods; of one that does not close, of which lines need more. */
 constexpr int drawn_periods = 8, recorded_periods = 64;
 
-/** Those of a motion that closes are known; of another one they are read from its record. */
-motion::Lines lines_of(const FoundMotion& found)
-{
-  if (found.closes_after > 0) return found.lines;
-  motion::Lines lines = motion::lines_of_recorded({found.machine.bearing}, found.motion);
-  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
-  return lines;
-}
-
 /** First what says how to read the rest: instants, instants per turn, base periods, balls, cage ratio, clearance, first
     turn, whether the motion closes, instants of the contact over two turns, lines. */
-void add_motion(const Parameters& parameters, double frequency, const Computed& at)
+void add_motion(const Parameters& parameters, double frequency, const FoundMotion& found)
 {
-  const FoundMotion& found = at.found;
   const motion::Motion& motion = found.motion;
   const Bearing& bearing = parameters.bearing;
   const bool closes = found.closes_after > 0;
@@ -53,6 +44,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
       motion::ball_forces(found.machine, motion, long(std::ceil(2 / turns)));
   const std::size_t instants = std::min(std::size_t(loads.rows()), std::size_t(2 * per_turn));
   const motion::Lines all = lines_of(found);
+  const auto forces = motion::bearing_forces(found.machine, motion);
   const auto add = [](std::initializer_list<double> values) {
     numbers.insert(numbers.end(), values);
   };
@@ -62,7 +54,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
        double(all.lines.size())});
   for (std::size_t k = 0; k < rows; ++k) {
     const auto& [stator, rotor] = motion.positions[k];
-    add({stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
+    add({stator.x, stator.y, rotor.x, rotor.y, forces[k].x, forces[k].y});
   }
   for (std::size_t k = 0; k < instants; ++k)
     for (const double load : loads.row(k)) numbers.push_back(load);
@@ -76,12 +68,13 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
 void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
-  request.stability = what == "verdict";
+  request.is_measured = what == "verdict";
+  request.periods = recorded_periods;
   Table table("Live", {});
-  const Computed at = computed(parameters, request, recorded_periods, table);
-  conclude(table, parameters, at.touches(), at.budget);
+  const FoundMotion found = computed(parameters, request, table);
+  conclude(table, parameters, found.touches(), found.budget);
   text = table.text();
-  add_motion(parameters, request.frequency, at);
+  add_motion(parameters, request.frequency, found);
 }
 
 void show_response(const MotionRequest& at, double from, double to)
@@ -129,7 +122,7 @@ EMSCRIPTEN_KEEPALIVE int live_run(const char* what, const char* file, const char
   text.clear();
   numbers.clear();
   std::ofstream(file, std::ios::binary) << toml;
-  MotionRequest request;
+  MotionRequest request{};
   request.parameter_file = file;
   request.frequency = frequency;
   request.method = "aft";

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import map_scaling
 import numpy as np
+from claim_quantities import LIMITS, RULES
 from claim_score import listed, stored
 from rotor_stator import run
 from tables import Table, cells_as_numbers, two_digits
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
-ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
-REQUIRED = next(rule["reproduced"][0] for rule in tomllib.loads(Path("data/claims.toml").read_text())["claim"] if rule["id"] == "C2")
+REQUIRED = next(rule["reproduced"][0] for rule in RULES["claim"] if rule["id"] == "C2")
 METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4",
            "rk4-lanes": "the same, all speeds side by side",
            "splitting": "splitting of order 4", "splitting-lanes": "the splitting, all speeds side by side",
@@ -162,7 +162,7 @@ def answers(add):
 
 def truth(add):
     """Shares of the speeds with a T-periodic attractor, and the harmonics that reach it."""
-    limit = min(tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["distance_limits"])
+    limit = min(LIMITS["distance_limits"])
     add("truth.limit", limit, "-", "distance that counts as reached")
     tight = tomllib.loads(Path("data/scenes/validity.toml").read_text())["tolerance"]
     add("truth.tolerance", tight, "-", "error that was asked for with m chosen")
@@ -181,14 +181,14 @@ def truth(add):
         add(f"truth.adaptive_m_{number}", chosen["m"][good].max() if good.any() else 0, "-", "its largest m")
     every = Table(KEPT / "validity.tsv").where("set", 1)
     fixed = every.where("periodic", 1).where("adaptive", 0).where("m", 6)
-    missed = fixed["f"][(fixed["found"] == 0) | (fixed["distance"] > ACCURATE)]
+    missed = fixed["f"][(fixed["found"] == 0) | (fixed["distance"] > LIMITS["accurate"])]
     add("C2.all", len(np.unique(every["f"])), "-", "all speeds")
     add("C2.missed", len(missed), "-", "those with a T-periodic attractor and an rms error above the limit")
     add("C2.missed_low", (missed <= 10).sum(), "-", "of them up to 10 Hz")
     add("C2.low", (np.unique(every["f"]) <= 10).sum(), "-", "speeds up to 10 Hz")
     add("C2.where", listed([f"{f:g}" for f in missed]), "Hz", "these speeds")
     add("C2.required", REQUIRED, "-", "share of the speeds that makes a claim about a range reproduced")
-    add("C2.limit", ACCURATE, "-", "the limit of the rule")
+    add("C2.limit", LIMITS["accurate"], "-", "the limit of the rule")
 
 
 def beside_chaos(add):

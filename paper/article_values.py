@@ -28,11 +28,11 @@ def add(key, value, unit, meaning):
 
 
 def paper_values():
-    text = tomllib.loads(Path("data/claims.toml").read_text())["accepted"]
+    text = quantities.RULES["accepted"]
     add("paper.peak", text["paper_peak_hz"], "Hz", "the peak that the paper names")
     add("paper.balls", tomllib.loads(Path("data/set1.toml").read_text())["bearing"]["balls"], "-", "balls")
     add("paper.loss", text["paper_loss_hz"], "Hz", "the speed of its Fig. 4")
-    for claim in tomllib.loads(Path("data/claims.toml").read_text())["claim"]:
+    for claim in quantities.RULES["claim"]:
         if claim["id"] in ("C2", "C3"):
             add(f"paper.m_{int(claim['id'][1]) - 1}", float(claim["paper"]), "-", f"harmonics that suffice in the paper, {claim['id']}")
     for name, speed in zip(("from", "to"), text["loss_hz"]):

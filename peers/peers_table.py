@@ -6,7 +6,7 @@ from ctypes import create_string_buffer
 import numpy as np
 import scipy
 from equation7 import LIBRARY, Case
-from explore import provenance
+from explore import displacements, provenance
 
 COLUMNS = (
     ("set", "-", "data set"),
@@ -37,7 +37,7 @@ def call_costs(speed):
     """Seconds of an evaluation along the reference orbit: from C++, and from Python."""
     case, rounds = Case(speed.file, speed.frequency), 200
     times, states = speed.times([0]), np.zeros((speed.points, 8))
-    states[:, :4] = np.column_stack([speed.reference[n] for n in ("x_s", "y_s", "x_r", "y_r")])
+    states[:, :4] = displacements(speed.reference)
     began = time.thread_time()
     case.derivatives(times, states, rounds)
     middle = time.thread_time()

@@ -23,6 +23,7 @@ from answers import Reading, Row, changed_file, read, reference
 from explore import ROOT, Table, child_seconds
 from integrators import Broken
 from peers_table import cell, sundials_version
+from tables import cells_as_numbers
 
 COLUMNS = (
     ("question", "-", "letter of the question, see the list of questions"),
@@ -201,14 +202,8 @@ def explored(words):
     return Table.of(done.stdout)
 
 
-def number(word):
-    """A cell; NaN where the result is missing."""
-    return np.nan if word == "-" else float(word)
-
-
 def kind_of(period, driven_twice):
     """Our K as a kind; a motion that is -1 contracts where two frequencies drive."""
-    period = int(number(period))
     return period if period > 0 else -1 if period == -1 and driven_twice else 0
 
 
@@ -217,8 +212,8 @@ def ours(asked, table):
     nearest one."""
     is_map = "amplitude" in table.columns
     names = ("frequency", "amplitude") if is_map else ("f", "amp_x_r")
-    speeds, amplitudes = (np.array([number(word) for word in table[name]])
-                          for name in names)
+    speeds, amplitudes = (cells_as_numbers(table[name]) for name in names)
+    periods = cells_as_numbers(table["period"]) if "period" in table.columns else None
     readings = []
     for row, true in zip(asked.drawn, asked.references):
         here = np.isclose(speeds, row.frequency, rtol=1e-9)
@@ -226,8 +221,8 @@ def ours(asked, table):
             clearances = table["bearing.radial_clearance_m"]
             here &= np.isclose(clearances, row.clearance, rtol=1e-9, atol=0)
         twice = row.case().base()[1]
-        found = [Reading(amplitudes[k], kind_of(table["period"][k], twice)
-                         if "period" in table.columns else None)
+        found = [Reading(amplitudes[k],
+                         None if periods is None else kind_of(int(periods[k]), twice))
                  for k in np.flatnonzero(here & np.isfinite(amplitudes))]
         same = [one for one in found if one.kind == true.kind]
         readings.append(min(same or found, default=None,

@@ -45,25 +45,23 @@ void require_files(const Request& asked)
 }
 
 /** What a command finds; where nothing is found, the file of the machine is named. */
-template <class Asked>
-Exploration found_by(const Asked& asked, Exploration (*explored)(const Asked&))
+Exploration found_by(const std::function<Exploration()>& explored,
+                     const std::string& parameter_file)
 try {
-  return explored(asked);
+  return explored();
 } catch (const NoSolution& error) {
   const std::string why = error.what();
-  const bool is_named = why.starts_with(asked.parameter_file);
-  throw NoSolution((is_named ? "" : asked.parameter_file + ": ") + why);
+  throw NoSolution((why.starts_with(parameter_file) ? "" : parameter_file + ": ") + why);
 }
 
 /** Computes, draws by the script and prints: what cannot be written keeps nothing else
     from being written. */
-template <class Asked>
-void run(const Asked& asked, Exploration (*explored)(const Asked&),
-         const std::string& script)
+void run(const Request& asked, const std::string& script,
+         const std::function<Exploration()>& explored)
 {
   require_files(asked);
   if (asked.plot) require_plot(*asked.plot, script);
-  Exploration found = found_by(asked, explored);
+  Exploration found = found_by(explored, asked.parameter_file);
   if (asked.rpm) found.table.value("speed_axis", "rpm");
   std::vector<std::string> missing{found.unfinished};
   for (const NamedContent& file : found.files) try {
@@ -94,7 +92,7 @@ void add(CLI::App& app, const char* name, Exploration (*explored)(const Asked&),
   const Check check = add_options(*command, *asked);
   command->callback([=] {
     check();
-    run(*asked, explored, script);
+    run(*asked, script, [=] { return explored(*asked); });
   });
 }
 

@@ -36,30 +36,27 @@ using namespace rotor_stator;
 using namespace rotor_stator::costs;
 
 struct CostGrowthScene {
-  Parameters parameters;
-  double frequency, below;     ///< of the solution, and of what it starts from [Hz]
-  std::vector<int> harmonics;  ///< rising
-  int fitted_from;             ///< the least m that the exponents are fitted to
-  int samples_per_harmonic, repetitions;
-  double newton_tolerance;
+  SceneFile file;
+  StrictToml toml = file.toml();
+  Parameters parameters = read_parameters(file, "parameters");
+  /** Of the solution, and of what it starts from [Hz]. */
+  double frequency = toml.number("speed_hz", Range::positive);
+  double below = toml.number("below_hz", Range::positive);
+  std::vector<int> harmonics = toml.integers("harmonics", 1, 4096);  ///< rising
+  /** The least m that the exponents are fitted to. */
+  int fitted_from = toml.integer("fitted_from_harmonics", 1, 4096);
+  int samples_per_harmonic = toml.integer("samples_per_harmonic", 2, 64);
+  int repetitions = toml.integer("repetitions", 1, 1000);
+  double newton_tolerance = toml.number("newton_tolerance", Range::positive);
 };
 
-CostGrowthScene read_cost_growth(SceneFile& file)
+CostGrowthScene read_cost_growth(const SceneFile& file)
 {
-  StrictToml& toml = file.toml();
-  const CostGrowthScene scene{
-      .parameters = read_parameters(file, "parameters"),
-      .frequency = toml.number("speed_hz", Range::positive),
-      .below = toml.number("below_hz", Range::positive),
-      .harmonics = toml.integers("harmonics", 1, 4096),
-      .fitted_from = toml.integer("fitted_from_harmonics", 1, 4096),
-      .samples_per_harmonic = toml.integer("samples_per_harmonic", 2, 64),
-      .repetitions = toml.integer("repetitions", 1, 1000),
-      .newton_tolerance = toml.number("newton_tolerance", Range::positive)};
-  if (scene.below >= scene.frequency) toml.fail("below_hz", "must be below speed_hz");
-  if (!std::is_sorted(scene.harmonics.begin(), scene.harmonics.end()))
-    toml.fail("harmonics", "must rise");
-  toml.refuse_unknown_keys();
+  const CostGrowthScene scene{file};
+  if (scene.below >= scene.frequency)
+    scene.toml.fail("below_hz", "must be below speed_hz");
+  if (!std::ranges::is_sorted(scene.harmonics)) scene.toml.fail("harmonics", "must rise");
+  scene.toml.refuse_unknown_keys();
   return scene;
 }
 

@@ -41,13 +41,108 @@ The table has the least and the largest of them, the setting, and the error that
 reached.
 
 Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
+#include <algorithm>
+#include <cmath>
+
 #include "costs/equal_error.hpp"
+#include "io/errors.hpp"
 #include "io/program.hpp"
+
+namespace {
+
+using namespace rotor_stator;
+using namespace rotor_stator::costs;
+
+/** `error`: "largest" or "mean". */
+EqualErrorScene read_equal_error(SceneFile& file, const std::string& error)
+{
+  if (error != "largest" && error != "mean")
+    throw BadInput("--error " + error + ": must be largest or mean");
+  StrictToml& toml = file.toml();
+  EqualErrorScene scene{
+      .parameters = read_parameters(file, "parameters"),
+      .frequencies = file.speed_range("speeds_hz"),
+      .range_ends = toml.numbers("range_ends_hz", Range::positive),
+      .targets = toml.numbers("targets", Range::positive),
+      .paper_ratios = toml.numbers("paper_ratios", Range::positive),
+      .candidates = read_candidates(toml),
+      .repetitions = toml.integer("repetitions", 1, 1000),
+      .search = toml.number("search_s", Range::positive),
+      .truth = {.settling = read_steady_settings(file)},
+      .error = error == "mean" ? &MotionError::mean : &MotionError::displacement};
+  if (!std::is_sorted(scene.range_ends.begin(), scene.range_ends.end()))
+    toml.fail("range_ends_hz", "must rise");
+  if (scene.range_ends.back() < scene.frequencies.back())
+    toml.fail("range_ends_hz", "must end at or above the last speed");
+  if (!std::is_sorted(scene.targets.rbegin(), scene.targets.rend()))
+    toml.fail("targets", "must fall");
+  toml.refuse_unknown_keys();
+  return scene;
+}
+
+using Row = EqualErrorRow;
+
+const std::vector<Field<Row>> equal_error_fields{
+    {"range", "Hz", "first and last T-periodic speed of the sweep", &Row::range},
+    {"target", "-", "largest error allowed", &Row::target},
+    {"method", "-",
+     "aft: harmonic balance; rk4; splitting; -lanes: all speeds side by side; central "
+     "differences; rk8; GSL's; shooting- with one of them",
+     [](auto& r) { return r.schedule.method(); }},
+    {"setting", "-",
+     "the cheapest that reaches the target; least..most where it differs by speed",
+     [](auto& r) { return r.schedule.text(); }},
+    {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
+     &Row::median},
+    {"error", "-", "largest relative error of displacement over the speeds",
+     &Row::displacement},
+    {"error_force", "-", "largest relative error of force over the speeds", &Row::force},
+    {"ratio", "-", "CPU over that of aft at the same target; 0 where aft has none",
+     &Row::ratio},
+    {"cpu_min_s", "s", "least", &Row::least},
+    {"cpu_max_s", "s", "most", &Row::most},
+    {"worst_f", "Hz", "speed with the largest error of displacement",
+     &Row::worst_frequency},
+    {"speeds", "-", "number of speeds", &Row::speeds},
+    {"evaluations", "-", "evaluations of the bearing's force, one instant each",
+     &Row::force_instants},
+    {"tried", "-", "settings tried", &Row::tried},
+    {"error_mean", "-", "largest rms error about the mean over the speeds", &Row::mean}};
+
+Table equal_error_table(const EqualErrorScene& scene, const References& references,
+                        const std::vector<EqualErrorRow>& rows)
+{
+  Table table(
+      "CPU time of the same sweep at equal error, every method at its best setting",
+      equal_error_fields);
+  describe(table, scene.parameters);
+  table.value("from", scene.frequencies.front());
+  table.value("to", scene.frequencies.back());
+  table.value("repetitions", scene.repetitions);
+  table.value("bounded", scene.error == &MotionError::mean ? "error_mean" : "error");
+  table.note(
+      "speeds with T-periodic motion, in order; bounded: the column of the targets");
+  table.note(
+      format("the search of a method in a range ends after %g s of CPU", scene.search));
+  table.note(what_is_timed);
+  references.describe(table, scene.truth);
+  table.row_line("paper_ratios", {scene.paper_ratios.begin(), scene.paper_ratios.end()});
+  table.note("paper_ratios: RK4 to harmonic balance with 6, 8 and 10 harmonics");
+  for (const EqualErrorRow& row : rows)
+    if (row.reached)
+      table.row(equal_error_fields, row);
+    else
+      table.note(format("not reached: %s, %s Hz, target %g; ",
+                        row.schedule.method().c_str(), row.range.c_str(), row.target) +
+                 (std::isfinite(row.*scene.error) ? format("best %.2g", row.*scene.error)
+                                                  : "no setting solves every speed"));
+  return table;
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
-  using namespace rotor_stator;
-  using namespace rotor_stator::costs;
   std::string error = "largest";
   const OwnOption own{
       "--error", "what the targets bound: largest, or mean (rms about the mean)", &error};
@@ -55,14 +150,7 @@ int main(int argc, char** argv)
     const EqualErrorScene scene = read_equal_error(file, error);
     const References references =
         true_motions(scene.parameters, scene.frequencies, scene.truth);
-    std::vector<EqualErrorRow> rows;
-    for (const References& range : periodic_ranges(scene, references))
-      for (const Candidates& method : watched("methods", scene.candidates)) {
-        const std::vector<Measurement> tried = try_settings(scene, range, method);
-        for (double target : scene.targets)
-          rows.push_back(cheapest(scene, range, tried, target, rows));
-      }
-    return equal_error_table(scene, references, rows);
+    return equal_error_table(scene, references, at_equal_error(scene, references));
   };
   return run_figure(argc, argv, compute, own);
 }

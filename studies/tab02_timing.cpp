@@ -30,7 +30,6 @@ ball. */
 #include <algorithm>
 #include <cmath>
 
-#include "balance/newton.hpp"
 #include "costs/equal_error.hpp"
 #include "io/program.hpp"
 
@@ -40,25 +39,24 @@ using namespace rotor_stator;
 using namespace rotor_stator::costs;
 
 struct TimingScene {
-  Parameters parameters;
-  std::vector<double> frequencies;     ///< [Hz]
+  SceneFile file;
+  StrictToml toml = file.toml();
+  Parameters parameters = read_parameters(file, "parameters");
+  std::vector<double> frequencies = file.speed_range("speeds_hz");  ///< [Hz]
+  /** Printed for each balance, and for RK4 last; unit not given. */
+  std::vector<double> paper_cpu = toml.numbers("paper_cpu", Range::positive);
+  int repetitions = toml.integer("repetitions", 1, 1000);
+  TruthSettings truth{.settling = read_steady_settings(file),
+                      .tolerance = 1e-12,
+                      .periodicity_residual = 1e-9};
   std::vector<Setting> balances = {};  ///< m and N of harmonic balance
-  std::vector<double> paper_cpu;  ///< printed for each, and for RK4 last; unit not given
-  std::vector<Setting> rk4 = {};  ///< tried, those with the fewest steps first
-  int repetitions;
-  TruthSettings truth;
+  std::vector<Setting> rk4 = {};       ///< tried, those with the fewest steps first
 };
 
-TimingScene read_timing(SceneFile& file)
+TimingScene read_timing(const SceneFile& file)
 {
-  StrictToml& toml = file.toml();
-  TimingScene scene{.parameters = read_parameters(file, "parameters"),
-                    .frequencies = file.speed_range("speeds_hz"),
-                    .paper_cpu = toml.numbers("paper_cpu", Range::positive),
-                    .repetitions = toml.integer("repetitions", 1, 1000),
-                    .truth = {.settling = read_steady_settings(file),
-                              .tolerance = 1e-12,
-                              .periodicity_residual = 1e-9}};
+  TimingScene scene{file};
+  StrictToml& toml = scene.toml;
   const auto harmonics = toml.integers("harmonics", 1, 4096);
   const auto samples = toml.integers("samples", 3, 1 << 20);
   if (samples.size() != harmonics.size())
@@ -71,8 +69,7 @@ TimingScene read_timing(SceneFile& file)
     scene.balances.push_back({.method = "aft",
                               .harmonics = harmonics[k],
                               .samples = samples[k],
-                              .paper_sweep = true,
-                              .tolerance = NewtonSettings{}.tolerance});
+                              .paper_sweep = true});
   }
   const int recorded = scene.truth.settling.stepper.intervals_per_period;
   const auto transients = toml.numbers("rk4_transients_s", Range::positive);
@@ -123,11 +120,10 @@ const std::vector<Field<Row>> timing_fields{
      &Row::worst_frequency},
     {"paper_cpu", "-", "the paper's figure, unit not given", &Row::paper_cpu}};
 
-/** `rk4` at the errors of `balances`. */
-Table timing_table(const TimingScene& scene, const References& references,
-                   const std::vector<Measurement>& balances,
-                   const std::vector<Measurement>& rk4)
+Table timing_table(const TimingScene& scene)
 {
+  const References references =
+      true_motions(scene.parameters, scene.frequencies, scene.truth);
   Table table("CPU time of the same sweep at equal error (paper: section 3.3)",
               timing_fields);
   describe(table, scene.parameters);
@@ -136,11 +132,14 @@ Table timing_table(const TimingScene& scene, const References& references,
   table.value("to", scene.frequencies.back());
   table.value("repetitions", scene.repetitions);
   references.describe(table, scene.truth);
-  for (std::size_t k = 0; k < balances.size(); ++k) {
-    const int m = balances[k].schedule.at(0).harmonics;
-    const double ratio = rk4[k].median / balances[k].median;
-    table.row(timing_fields, {balances[k], m, ratio, scene.paper_cpu[k]});
-    table.row(timing_fields, {rk4[k], m, 1, scene.paper_cpu.back()});
+  for (std::size_t k = 0; k < scene.balances.size(); ++k) {
+    const Measurement balance = measure(references, scene.balances[k], scene.repetitions);
+    const Measurement rk4 = measure(
+        references, cheapest_rk4(scene.rk4, references, balance), scene.repetitions);
+    const int m = scene.balances[k].harmonics;
+    table.row(timing_fields,
+              {balance, m, rk4.median / balance.median, scene.paper_cpu[k]});
+    table.row(timing_fields, {rk4, m, 1, scene.paper_cpu.back()});
   }
   return table;
 }
@@ -149,17 +148,6 @@ Table timing_table(const TimingScene& scene, const References& references,
 
 int main(int argc, char** argv)
 {
-  return run_figure(argc, argv, [](SceneFile& file) {
-    const TimingScene scene = read_timing(file);
-    const References references =
-        true_motions(scene.parameters, scene.frequencies, scene.truth);
-    std::vector<Measurement> balances, rk4;
-    for (const Setting& harmonics : scene.balances) {
-      balances.push_back(measure(references, harmonics, scene.repetitions));
-      rk4.push_back(measure(references,
-                            cheapest_rk4(scene.rk4, references, balances.back()),
-                            scene.repetitions));
-    }
-    return timing_table(scene, references, balances, rk4);
-  });
+  return run_figure(argc, argv,
+                    [](SceneFile& file) { return timing_table(read_timing(file)); });
 }

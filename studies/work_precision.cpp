@@ -38,28 +38,25 @@ using namespace rotor_stator;
 using namespace rotor_stator::costs;
 
 struct WorkPrecisionScene {
-  std::vector<Parameters> sets;     ///< one for each speed
-  std::vector<double> frequencies;  ///< [Hz]
-  double below;                     ///< the known motion is that far below the speed [Hz]
-  std::vector<Candidates> candidates;
-  int repetitions;
-  double long_run;          ///< [s]: a run above it is repeated twice only
-  int reference_harmonics;  ///< of the second, independent reference
-  TruthSettings truth;
+  SceneFile file;
+  StrictToml toml = file.toml();
+  std::vector<Parameters> sets = read_parameter_list(file, "parameters");
+  /** [Hz]: one for each set, and how far below it the known motion is. */
+  std::vector<double> frequencies = toml.numbers("speeds_hz", Range::positive);
+  double below = toml.number("below_hz", Range::positive);
+  std::vector<Candidates> candidates = read_candidates(toml);
+  int repetitions = toml.integer("repetitions", 1, 1000);
+  /** [s]: a run above it is repeated twice only. */
+  double long_run = toml.number("long_run_s", Range::positive);
+  /** Of the second, independent reference. */
+  int reference_harmonics = toml.integer("reference_harmonics", 1, 4096);
+  TruthSettings truth{.settling = read_steady_settings(file)};
 };
 
-WorkPrecisionScene read_work_precision(SceneFile& file)
+WorkPrecisionScene read_work_precision(const SceneFile& file)
 {
-  StrictToml& toml = file.toml();
-  WorkPrecisionScene scene{
-      .sets = read_parameter_list(file, "parameters"),
-      .frequencies = toml.numbers("speeds_hz", Range::positive),
-      .below = toml.number("below_hz", Range::positive),
-      .candidates = read_candidates(toml),
-      .repetitions = toml.integer("repetitions", 1, 1000),
-      .long_run = toml.number("long_run_s", Range::positive),
-      .reference_harmonics = toml.integer("reference_harmonics", 1, 4096),
-      .truth = {.settling = read_steady_settings(file)}};
+  const WorkPrecisionScene scene{file};
+  const StrictToml& toml = scene.toml;
   if (scene.sets.size() != scene.frequencies.size())
     toml.fail("speeds_hz", "must have one value for each of parameters");
   for (double frequency : scene.frequencies)
@@ -67,14 +64,6 @@ WorkPrecisionScene read_work_precision(SceneFile& file)
   toml.refuse_unknown_keys();
   return scene;
 }
-
-/** One machine at one speed, and its references. */
-struct WorkCase {
-  std::size_t number;  ///< from 1
-  Parameters parameters;
-  TrueMotion truth, before;  ///< at the speed, and below it
-  double agreement;          ///< of shooting and harmonic balance [-]
-};
 
 struct WorkPoint : Measurement {
   std::size_t number;  ///< of the case
@@ -85,9 +74,9 @@ struct WorkPoint : Measurement {
   bool found() const { return std::isfinite(displacement); }
 };
 
-/** The scene's case of that number. Throws NoSolution when a reference cannot be had or
-    is not T-periodic. */
-WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
+/** The scene's case of that number, the motion below its speed known. Throws NoSolution
+    when a reference cannot be had or is not T-periodic. */
+References work_case(const WorkPrecisionScene& scene, std::size_t number)
 {
   const Parameters& parameters = scene.sets[number - 1];
   const auto periodic_motion = [&](double frequency) {
@@ -98,11 +87,10 @@ WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
                  frequency, truth.spread));
     return truth;
   };
-  const double frequency = scene.frequencies[number - 1];
-  WorkCase reference{number, parameters, periodic_motion(frequency),
-                     periodic_motion(frequency - scene.below), 0};
-  reference.agreement = agreement(parameters, reference.truth, scene.reference_harmonics);
-  return reference;
+  const double frequency = scene.frequencies[number - 1], below = frequency - scene.below;
+  const TrueMotion truth = periodic_motion(frequency);
+  return {{parameters, {frequency}, Task::Known{below, periodic_motion(below).state}},
+          {truth}};
 }
 
 /** Evaluations that are timed together, enough for the clock. */
@@ -197,23 +185,20 @@ const std::vector<Field<Row>> work_precision_fields{
      &Row::force_instants},
     {"transforms", "-", "Fourier transforms of one series", &Row::transforms}};
 
-/** One setting, measured. */
-WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
-                     bool continued, const Setting& setting)
+WorkPoint work_point(const WorkPrecisionScene& scene, std::size_t number,
+                     References reference, bool continued, const Setting& setting)
 {
-  const auto& [number, parameters, truth, before, agreement] = reference;
-  References references{{parameters, {truth.frequency}}, {truth}};
-  if (continued) references.before = {before.frequency, before.state};
-  const double once = measure(references, setting, 1).median;
+  if (!continued) reference.before.reset();
+  const double once = measure(reference, setting, 1).median;
   const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
-  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
-                  continued};
-  if (point.found()) split_time(point, references);
+  WorkPoint point{measure(reference, setting, repetitions), number,
+                  reference.frequencies.front(), continued};
+  if (point.found()) split_time(point, reference);
   return point;
 }
 
 Table work_precision_table(const WorkPrecisionScene& scene,
-                           const std::vector<WorkCase>& cases,
+                           const std::vector<std::vector<Cell>>& cases,
                            const std::vector<WorkPoint>& points)
 {
   Table table("Work against precision: one periodic motion, every method",
@@ -226,9 +211,7 @@ Table work_precision_table(const WorkPrecisionScene& scene,
       "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = "
       "%d",
       scene.truth.tolerance, scene.reference_harmonics));
-  for (const WorkCase& c : cases)
-    table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),
-                            c.truth.spread, c.truth.periodicity_residual, c.agreement});
+  for (const std::vector<Cell>& one : cases) table.row_line("case", one);
   table.note("row case: number, speed, file, Poincare spread, closure, agreement");
   for (const WorkPoint& point : points) table.row(work_precision_fields, point);
   return table;
@@ -240,15 +223,19 @@ int main(int argc, char** argv)
 {
   return run_figure(argc, argv, [](SceneFile& file) {
     const WorkPrecisionScene scene = read_work_precision(file);
-    std::vector<WorkCase> cases;
+    std::vector<std::vector<Cell>> cases;
     std::vector<WorkPoint> points;
     for (std::size_t number = 1; number <= scene.frequencies.size(); ++number) {
-      cases.push_back(work_case(scene, number));
+      const References reference = work_case(scene, number);
+      const TrueMotion& truth = reference.truths.front();
+      cases.push_back(
+          {number, truth.frequency, one_word(reference.parameters.file), truth.spread,
+           truth.periodicity_residual,
+           agreement(reference.parameters, truth, scene.reference_harmonics)});
       for (const Candidates& method : watched("methods", scene.candidates))
         for (bool continued : {false, true})
-          for (const SettingGroup& group : method.groups)
-            for (const Setting& setting : group)
-              points.push_back(work_point(scene, cases.back(), continued, setting));
+          for (const Setting& setting : method.groups | std::views::join)
+            points.push_back(work_point(scene, number, reference, continued, setting));
     }
     return work_precision_table(scene, cases, points);
   });

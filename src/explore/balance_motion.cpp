@@ -56,8 +56,6 @@ void put_verdict(Table& table, const Parameters& parameters, const motion::Verdi
 
 namespace {
 
-using motion::lines_of;
-
 /** The series of all coordinates in the place of those shown, where nodes of the rotor
     depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
@@ -100,25 +98,12 @@ motion::Judged solved(const Based& based, const BasePeriod& base,
       .turns = request.subharmonic};
   if (!request.harmonics && (request.tolerance || request.subharmonic > 1))
     return motion::to_tolerance(search, request.tolerance.value_or(usual_tolerance));
-  if (request.stability || request.tolerance)
+  if (request.is_measured || request.tolerance)
     return motion::judged(search, request.tolerance);
   motion::Judged at{.motion = motion::find_periodic(search)};
   at.reached = at.motion.found();
   at.end = at.motion.newton.reason();
   return at;
-}
-
-/** Lines by orders of the rotor's turns. */
-motion::Lines lines_of(const Bearing& bearing, const BasePeriod& base, int subharmonic,
-                       PeriodicMotion solution)
-{
-  if (base.kind != BasePeriod::Kind::passing)
-    return motion::lines_of(bearing, solution, base.turns * subharmonic);
-  std::vector<Harmonic> list = solution.harmonics.list();
-  for (Harmonic& h : list) h = {0, h.k_1};
-  solution.harmonics = Harmonics(std::move(list));
-  solution.omega /= passages_per_turn(bearing);
-  return motion::lines_of(bearing, solution);
 }
 
 FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base,
@@ -149,11 +134,14 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   if (at.verdict.found() && (request.tolerance || k > 1))
     put_difference(table, "error", at.verdict.distance,
                    "against the nearest motion of Eq. 7");
-  put_verdict(table, based.machine, request.stability ? &at.verdict : nullptr, k);
+  put_verdict(table, based.machine, request.is_measured ? &at.verdict : nullptr, k);
+  motion::Lines lines = motion::lines_of(parameters.bearing, solution, base.turns * k);
+  if (base.kind == BasePeriod::Kind::passing)
+    for (motion::Line& line : lines.lines) line.order *= passages;
   const Parameters machine = over_turns(based.machine, k);
   return {.motion = motion::motion_of(with_all_coordinates(machine, solution),
                                       k * request.points),
-          .lines = lines_of(parameters.bearing, base, k, solution),
+          .lines = std::move(lines),
           .machine = machine,
           .base_frequency = based.omega / angular(1),
           .base_periods = k,
@@ -192,7 +180,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
                                    angular(request.frequency),
                                    {.tolerance = request.newton_tolerance},
                                    budget,
-                                   request.stability};
+                                   request.is_measured};
   const motion::Torus torus =
       request.harmonics ? motion::torus_on_orders(search, *request.harmonics)
       : request.lines
@@ -219,7 +207,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   if (torus.error && !request.harmonics && !request.lines)
     put_difference(table, "error", *torus.error,
                    "against the nearest motion of Eq. 7, by integration");
-  if (request.stability)
+  if (request.is_measured)
     note_torus_verdict(table, torus);
   else
     put_verdict(table, parameters, nullptr, 1);

@@ -99,14 +99,14 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters, i
   return branch;
 }
 
-BranchPoint restart_point(const SavedBranch& branch, const double* omega,
+BranchPoint restart_point(const SavedBranch& branch, std::optional<double> frequency,
                           const Curve& curve)
 {
   const auto& points = branch.points;
   auto near = points.end() - 1;
-  if (omega)
+  if (frequency)
     near = std::ranges::min_element(points, {}, [&](const BranchPoint& p) {
-      return std::abs(p.motion.omega - *omega);
+      return std::abs(p.motion.omega - angular(*frequency));
     });
   BranchPoint point = *near;
   const BranchPoint &before = near == points.begin() ? *near : near[-1],

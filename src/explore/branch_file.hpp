@@ -6,6 +6,8 @@ followed once can be gone on with. The header says what the branch belongs to: t
 machine's values, m, N, and the direction of the walk. */
 #pragma once
 
+#include <optional>
+
 #include "continuation/arc_length.hpp"
 
 namespace rotor_stator::explore {
@@ -26,9 +28,9 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
 SavedBranch read_branch(const std::string& file, const Parameters& parameters,
                         int number);
 
-/** The point of the branch nearest to `omega` [rad/s], with the direction of the branch
-    there as its tangent; the last point without `omega`. */
-BranchPoint restart_point(const SavedBranch& branch, const double* omega,
+/** The point of the branch nearest to the speed `frequency` [Hz], with the direction of
+    the branch there as its tangent; the last point without one. */
+BranchPoint restart_point(const SavedBranch& branch, std::optional<double> frequency,
                           const Curve& curve);
 
 }  // namespace rotor_stator::explore

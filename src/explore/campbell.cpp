@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "explore/modes.hpp"
-#include "explore/plausible.hpp"
 #include "io/errors.hpp"
-#include "model/read_machine.hpp"
 
 namespace rotor_stator::explore {
 
@@ -66,12 +64,8 @@ Exploration explore_campbell(const CampbellRequest& request)
         "--count 1: is for --from equal to --to, without --critical and --plot");
   if (request.critical && request.plot)
     throw BadInput("--plot: draws frequencies; leave out --critical");
-  const Parameters parameters = doubted(
-      read_machine(StrictToml(request.parameter_file), {.from = request.from,
-                                                        .to = request.to,
-                                                        .harmonics = 64,
-                                                        .largest = largest_linear}),
-      request.to);
+  const Parameters parameters =
+      machine_of(request, request.from, request.to, {.largest = largest_linear});
   const OperationBudget budget = budget_of(request, 60, parameters);
   const LinearMachine linear(parameters, budget, request.from);
   const Eigen::MatrixXd& stiffness = linear.contact();
@@ -107,8 +101,7 @@ Exploration explore_campbell(const CampbellRequest& request)
       for (int number = 1; const Mode& mode : modes.back()) {
         if (warning.empty()) warning = doubt(mode);
         if (!request.critical)
-          table.row({speed, number++, mode.frequency, mode.damping,
-                     static_cast<int>(mode.whirl)});
+          table.row({speed, number++, mode.frequency, mode.damping, mode.whirl});
       }
     }
     for (const auto& [value, name] : orders)

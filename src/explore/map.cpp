@@ -10,7 +10,6 @@
 #include "explore/resume.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "io/program.hpp"
 
 namespace rotor_stator::explore {
 

@@ -11,16 +11,16 @@ the number of threads nor on how the lines are dealt out to several runs. */
 
 namespace rotor_stator::explore {
 
-struct MapRequest : Request {
+/** The motion at each point by the method, tolerance and steps of motion::Request; or
+    solutions, by aft. */
+struct MapRequest : Request, motion::Request {
   std::string x, y;  ///< KEY=from:to:count[:log], or empty
   File list;         ///< table whose rows stand for the lines of y
   std::vector<std::string> quantities;
-  std::string method = "auto";                 ///< or aft, or a time method
-  double step = 0, longest = 0;                ///< as of a motion [s]
-  std::optional<double> frequency, tolerance;  ///< [Hz]; relative
-  std::string sweep;                           ///< A:B[:COUNT] [Hz], or empty
-  std::string lines;  ///< A:B: those with A ≤ index < B, or empty
-  int threads = 0;    ///< 0: as many as OpenMP has
+  std::optional<double> frequency;  ///< [Hz]
+  std::string sweep;                ///< A:B[:COUNT] [Hz], or empty
+  std::string lines;                ///< A:B: those with A ≤ index < B, or empty
+  int threads = 0;                  ///< 0: as many as OpenMP has
   File resume;
 };
 

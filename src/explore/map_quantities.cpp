@@ -1,7 +1,6 @@
 #include "explore/map_quantities.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
@@ -43,7 +42,10 @@ public:
   const PeriodicMotion& solution()
   {
     return solution_([&] {
-      PeriodicMotion found = is_chosen() ? chosen().motion : with_fixed_harmonics();
+      BalanceSearch near = search();
+      if (before_.found() && before_.harmonics.count() == near.harmonics)
+        near.starts.push_back(before_.x);
+      PeriodicMotion found = is_chosen() ? chosen().motion : motion::find_periodic(near);
       if (!found.found())
         throw NoSolution(
             format("no solution found with %d harmonics: ", task_.harmonics) +
@@ -56,13 +58,8 @@ public:
   const motion::Judged& chosen()
   {
     return chosen_([&] {
-      require_period();
-      motion::Judged at = motion::to_tolerance({.parameters = based_.machine,
-                                                .omega = based_.omega,
-                                                .harmonics = 6 * base_.turns,
-                                                .newton = newton_,
-                                                .budget = budget_},
-                                               task_.request.tolerance.value_or(1e-3));
+      motion::Judged at =
+          motion::to_tolerance(search(), task_.request.tolerance.value_or(1e-3));
       if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
       return at;
     });
@@ -109,18 +106,15 @@ public:
 
   motion::Question question() const
   {
-    const MapRequest& asked = task_.request;
-    const auto tolerance = is_balance() ? std::nullopt : asked.tolerance;
+    motion::Request asked = task_.request;
+    asked.omega = angular(frequency_);
+    asked.periods = Measures::open_periods;
+    asked.is_measured = asked.tolerance ||
+                        asks_for({"stability", "multiplier", "uncertainty", "lyapunov"});
+    if (is_balance()) asked.method = "auto", asked.tolerance.reset();
+    asked.step_ratio = step_ratio(asked.tolerance);
     return {machine_,
-            {.omega = angular(frequency_),
-             .method = is_balance() ? "auto" : asked.method,
-             .tolerance = tolerance,
-             .periods = Measures::open_periods,
-             .step = asked.step,
-             .step_ratio = step_ratio(tolerance),
-             .longest = asked.longest,
-             .is_measured = asked.tolerance || asks_for({"stability", "multiplier",
-                                                         "uncertainty", "lyapunov"})},
+            asked,
             budget_,
             {},
             machine_.bodies->patience().transient_share,
@@ -153,14 +147,7 @@ public:
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
-    if (is_balance()) {
-      const motion::Motion& record = motion_([&] {
-        return motion::motion_of(
-            solution(),
-            measures.recording(based_.machine, solution().omega, instants).points);
-      });
-      return measures.of(record_of(based_.machine, record, true)).at(0);
-    }
+    if (is_balance()) return measures.of(based_.machine, solution(), instants).at(0);
     const motion::Answer& whole = whole_(
         [&] { return whole_motion(measures, settled(), question().request, budget_); });
     return measures.of(record_of(whole)).at(0);
@@ -234,19 +221,15 @@ private:
                  passages_per_turn(machine_.bearing)));
   }
 
-  PeriodicMotion with_fixed_harmonics() const
+  BalanceSearch search() const
   {
     require_period();
-    const int m = base_.turns * task_.harmonics;
-    BalanceSearch search{.parameters = based_.machine,
-                         .omega = based_.omega,
-                         .harmonics = m,
-                         .samples = base_.turns * task_.samples,
-                         .newton = newton_,
-                         .budget = budget_};
-    if (before_.found() && before_.harmonics.count() == m)
-      search.starts.push_back(before_.x);
-    return motion::find_periodic(search);
+    return {.parameters = based_.machine,
+            .omega = based_.omega,
+            .harmonics = base_.turns * task_.harmonics,
+            .samples = base_.turns * task_.samples,
+            .newton = {.tolerance = task_.request.newton_tolerance},
+            .budget = budget_};
   }
 
   const MapTask& task_;
@@ -257,10 +240,8 @@ private:
   PeriodicMotion& before_;
   OperationBudget budget_ =
       budget_of_each(task_.request.budget, seconds_of_a_point, machine_);
-  NewtonSettings newton_{.tolerance = task_.request.newton_tolerance};
   Once<PeriodicMotion> solution_;
   Once<motion::Judged> chosen_;
-  Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;
   motion::Observed settled_;
@@ -342,12 +323,31 @@ Quantity named(const std::string& name, const std::function<Parameters()>& machi
                  "; measures such as contact_share, ball_load, force, rms_v_x_r)");
 }
 
+std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
+                   std::string status)
+{
+  std::string row;
+  for (const Quantity& quantity : chosen) {
+    std::string text = no_value;
+    try {
+      if (point) {
+        const Cell cell = quantity.value(*point);
+        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
+        text = cell.text();
+      }
+    } catch (const std::runtime_error& none) {
+      if (status == all_well) status = printable(none.what());
+    }
+    row += text + "\t";
+  }
+  return row + status;
+}
+
 }  // namespace
 
-const std::vector<Column>& map_quantities()
+std::vector<Column> map_quantities()
 {
-  static const std::vector<Column> columns(quantities.begin(), quantities.end());
-  return columns;
+  return {quantities.begin(), quantities.end()};
 }
 
 std::vector<Quantity> chosen_quantities(const MapTask& task)
@@ -395,30 +395,6 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
       require_two_masses(machine, ("--quantity " + one.name).c_str());
   return chosen;
 }
-
-namespace {
-
-std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
-                   std::string status)
-{
-  std::string row;
-  for (const Quantity& quantity : chosen) {
-    std::string text = no_value;
-    try {
-      if (point) {
-        const Cell cell = quantity.value(*point);
-        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
-        text = cell.text();
-      }
-    } catch (const std::runtime_error& none) {
-      if (status == all_well) status = printable(none.what());
-    }
-    row += text + "\t";
-  }
-  return row + status;
-}
-
-}  // namespace
 
 std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity>& chosen,
                                  std::span<const std::vector<double>> points,

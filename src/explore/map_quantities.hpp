@@ -12,7 +12,7 @@ Each is a column: what its value is taken from, and how a point knows it. */
 namespace rotor_stator::explore {
 
 /** The quantities of a map, each with its unit and meaning. */
-const std::vector<Column>& map_quantities();
+std::vector<Column> map_quantities();
 
 /** The solution of harmonic balance; the motion of the method that is asked for; the
     motion from rest; the solutions at the speeds of --sweep. */

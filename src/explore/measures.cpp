@@ -134,11 +134,6 @@ double value_of(const std::string& what, const Eigen::VectorXd& x, const Record&
   return 1e3 * rms_between(x, record, record.speed < slow ? 2 : 10, 1000);
 }
 
-double largest_load(const Record& record, int bearing)
-{
-  return motion::largest_ball_load(record.machine, record.motion, bearing);
-}
-
 /** At all instants. */
 Eigen::VectorXd samples_of(const Record& record, const Measure& one)
 {
@@ -152,11 +147,10 @@ Eigen::VectorXd samples_of(const Record& record, const Measure& one)
   } else if (one.of == Of::contact_share) {
     x.setConstant(one.place < 0 ? motion::contact_share(machine, motion)
                                 : motion::contact_share(machine, motion, one.place));
-  } else if (one.of == Of::ball_load) {
-    x.setConstant(largest_load(record, one.place));
-  } else if (one.of == Of::stress) {
+  } else if (one.of == Of::ball_load || one.of == Of::stress) {
+    const double load = motion::largest_ball_load(machine, motion, one.place);
     const double pressure = bearings_of(machine)[one.place].pressure;
-    x.setConstant(1e-6 * pressure * std::cbrt(largest_load(record, one.place)));
+    x.setConstant(one.of == Of::stress ? 1e-6 * pressure * std::cbrt(load) : load);
   } else {
     const auto forces = motion::bearing_forces(machine, motion, one.place);
     std::ranges::transform(forces, x.begin(), [&](Vec2 f) {
@@ -259,6 +253,13 @@ std::vector<double> Measures::of(const Record& record) const
   return values;
 }
 
+std::vector<double> Measures::of(const Parameters& machine,
+                                 const PeriodicMotion& solution, int points) const
+{
+  points = recording(machine, solution.omega, points).points;
+  return of(record_of(machine, motion::motion_of(solution, points), true));
+}
+
 std::vector<std::vector<double>> Measures::at_instants(const Record& record) const
 {
   std::vector<std::vector<double>> columns;
@@ -270,10 +271,9 @@ std::vector<std::vector<double>> Measures::at_instants(const Record& record) con
   return columns;
 }
 
-Recording Measures::recording(const Parameters& machine, double omega, int points,
-                              int periods) const
+Recording Measures::recording(const Parameters& machine, double omega, int points) const
 {
-  if (empty()) return {points, periods};
+  if (empty()) return {points, open_periods};
   constexpr double each = 16;   // of a vibration
   constexpr double most = 3e7;  // numbers that are kept
   constexpr int least_periods = 16;

@@ -17,7 +17,7 @@ into memory), under Hann's window where lines are asked for. Rates are differenc
 order 8.
 
     const Measures measures(request.columns, machine);
-    const std::vector<double> row = measures.of({motion, step, rotor_hertz, closes}); */
+    const std::vector<double> row = measures.of(record_of(answer)); */
 #pragma once
 
 #include "io/table.hpp"
@@ -77,11 +77,16 @@ public:
   bool needs_whole() const;
 
   /** What they need, P `points` times a power of two; that alone without any. */
-  Recording recording(const Parameters& machine, double omega, int points,
-                      int periods = open_periods) const;
+  Recording recording(const Parameters& machine, double omega, int points) const;
 
-  /** The values of the whole motion; of instant k. */
+  /** The values of the whole motion. */
   std::vector<double> of(const Record& record) const;
+
+  /** The same of a solution of harmonic balance, with P at least `points`. */
+  std::vector<double> of(const Parameters& machine, const PeriodicMotion& solution,
+                         int points) const;
+
+  /** The columns of values at all instants. */
   std::vector<std::vector<double>> at_instants(const Record& record) const;
 
 private:

@@ -92,8 +92,8 @@ void add_table_options(CLI::App& command, Request& request)
 {
   add_input(command, request, "parameters", request.parameter_file, "TOML parameter file")
       ->required();
-  if (command.get_name() == "map") return;  // its quantities are chosen
   const std::string name = command.get_name();
+  if (name == "map") return;  // its quantities are chosen
   const bool has_measures = name == "orbit" || name == "response" || name == "attractors";
   command.add_option_function<std::string>(
       "--columns",
@@ -202,8 +202,7 @@ const char* const usual_budget =
     "3 s for aft and shooting, up to 60 s for a branch)";
 
 /** Options of a motion in time. */
-template <class Asked>
-Check add_time_options(CLI::App& command, Asked& request)
+Check add_time_options(CLI::App& command, motion::Request& request)
 {
   const auto step = add_number(
       command, "--step", request.step, 0.0, largest,
@@ -221,13 +220,11 @@ Check add_time_options(CLI::App& command, Asked& request)
 
 std::string methods_in_words(bool has_shooting)
 {
-  std::string words =
+  const std::string periodic =
       "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
       "balance), ";
-  if (has_shooting) words += "shooting, ";
-  words += "gauss (of bodies given by matrices)";
-  for (const std::string& name : time_methods()) words += ", " + name;
-  return words;
+  return periodic + (has_shooting ? "shooting, " : "") +
+         "gauss (of bodies given by matrices), " + joined(time_methods(), ", ");
 }
 
 /** An option of harmonic balance asks for it. */
@@ -274,7 +271,7 @@ Check add_options(CLI::App& command, MotionRequest& request)
   if (name == "orbit" || name == "shape")
     add_number(command, "--periods", request.periods, 1, 1000,
                "base periods that are printed");
-  command.add_flag("!--no-stability", request.stability,
+  command.add_flag("!--no-stability", request.is_measured,
                    "leave out stability and, of a motion in time, the error");
   const Check check_time = add_time_options(command, request);
   const auto local_error =
@@ -409,10 +406,9 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
 
 Check add_options(CLI::App& command, MapRequest& request)
 {
-  std::string known;
+  std::vector<std::string> known;
   for (const Column& one : map_quantities())
-    known +=
-        (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
+    known.push_back(one.name + " [" + one.unit + "] " + one.meaning);
   add_common_options(command, request,
                      "at each point (default: those of 5 s, 1.4e8 with 16 balls)");
   const Options aft = add_balance_options(command, request, "by --tolerance");
@@ -423,7 +419,9 @@ Check add_options(CLI::App& command, MapRequest& request)
   command.add_option("--y", request.y, "the same, a line for each value");
   add_input(command, request, "--list", request.list,
             "table whose columns are keys, a line for each row, instead of --y");
-  command.add_option("--quantity", request.quantities, known + measures_in_words)
+  command
+      .add_option("--quantity", request.quantities,
+                  joined(known, "; ") + measures_in_words)
       ->delimiter(',')
       ->required();
   add_speed(command, "--frequency", request.frequency,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "balance/fourier_transform.hpp"
@@ -11,8 +10,6 @@
 #include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "model/read_machine.hpp"
-#include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
@@ -40,15 +37,12 @@ void require_method_of(const Parameters& parameters, const std::string& method)
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
-Parameters machine_of(const Request& request, double from, double to,
-                      const NumberTable* nodes)
+Parameters machine_of(const Request& request, double from, double to, ModelRange range)
 {
-  return doubted(read_machine(StrictToml(request.parameter_file),
-                              {.from = from,
-                               .to = to,
-                               .harmonics = std::max(64, request.harmonics.value_or(0)),
-                               .nodes = nodes}),
-                 to);
+  range.from = from;
+  range.to = to;
+  range.harmonics = std::max(range.harmonics, request.harmonics.value_or(0));
+  return doubted(read_machine(StrictToml(request.parameter_file), range), to);
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -189,7 +183,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
                parameters.file.c_str(), *request.tolerance, request.frequency, error));
   put_base(table, "turn", request.frequency);
   std::optional<motion::Verdict> verdict;
-  if (request.stability)
+  if (request.is_measured)
     verdict = motion::judge_through(parameters, omega, closed.state, budget, turns);
   put_verdict(table, parameters, verdict ? &*verdict : nullptr, turns);
   motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
@@ -219,22 +213,14 @@ void put_statistics(Table& table, const motion::Observation& seen)
       "errors; an amplitude grows with the window");
 }
 
-/** What the machine does from rest, `open_periods` of a motion that does not close. */
+/** What the machine does from rest. */
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
-                           int open_periods, const OperationBudget& budget, Table& table)
+                           const OperationBudget& budget, Table& table)
 try {
-  const motion::Answer answer =
-      motion::answer(parameters,
-                     {.omega = angular(request.frequency),
-                      .method = request.method,
-                      .tolerance = request.tolerance,
-                      .points = request.points,
-                      .periods = open_periods,
-                      .step = request.step,
-                      .local_error = request.local_error,
-                      .longest = request.longest,
-                      .is_measured = request.stability || request.tolerance},
-                     budget);
+  motion::Request asked = request;
+  asked.omega = angular(request.frequency);
+  asked.is_measured = request.is_measured || request.tolerance;
+  const motion::Answer answer = motion::answer(parameters, asked, budget);
   const Settled& settled = answer.settled;
   table.value("method", answer.method);
   put_base(table, answer.base.words(), answer.omega / angular(1));
@@ -283,13 +269,13 @@ try {
 
 }  // namespace
 
-bool Computed::touches() const
+bool FoundMotion::touches() const
 {
-  return motion::contact_share(found.machine, found.motion) > 0;
+  return motion::contact_share(machine, motion) > 0;
 }
 
-Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  int open_periods, Table& table)
+FoundMotion computed(const Parameters& parameters, const MotionRequest& request,
+                     Table& table)
 {
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
@@ -301,15 +287,13 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   double seconds = request.method == "auto" ? 0 : 3;
   if (!is_periodic(request.method))
     seconds = std::max(seconds, parameters.bodies->patience().settling);
-  Computed at{.budget = budget_of(request, seconds, parameters)};
-  if (request.method == "aft")
-    at.found = balance_motion(parameters, request, at.budget, table);
-  else if (request.method == "shooting")
-    at.found = closed_motion(parameters, request, at.budget, table);
-  else
-    at.found = settled_motion(parameters, request, open_periods, at.budget, table);
-  at.forces = motion::bearing_forces(at.found.machine, at.found.motion);
-  return at;
+  const OperationBudget budget = budget_of(request, seconds, parameters);
+  FoundMotion found =
+      request.method == "aft"        ? balance_motion(parameters, request, budget, table)
+      : request.method == "shooting" ? closed_motion(parameters, request, budget, table)
+                                     : settled_motion(parameters, request, budget, table);
+  found.budget = budget;
+  return found;
 }
 
 Exploration explore_orbit(const MotionRequest& request)
@@ -344,43 +328,39 @@ Exploration explore_orbit(const MotionRequest& request)
   table.choose(request.columns, usual, request.plot.has_value());
   const BasePeriod base = base_period(parameters);
   MotionRequest finer = request;
-  int recorded = request.periods;
   if (!measures.empty()) {
     const auto [machine, omega] = over(base, parameters, angular(request.frequency));
     const auto [points, periods] = measures.recording(machine, omega, request.points);
     finer.points = points;
-    if (measures.needs_whole()) recorded = std::max(recorded, periods);
-    if (base.is_driven_twice()) finer.periods = recorded;
+    if (measures.needs_whole()) finer.periods = std::max(request.periods, periods);
   }
-  const Computed at = computed(parameters, finer, recorded, table);
-  const motion::Motion& motion = at.found.motion;
+  const FoundMotion at = computed(parameters, finer, table);
+  const motion::Motion& motion = at.motion;
   /** Of two frequencies harmonic balance prints a record. */
-  const bool closes = at.found.closes_after > 0 &&
-                      (!is_periodic(request.method) || !base.is_driven_twice());
+  const bool closes =
+      at.closes_after > 0 && (!is_periodic(request.method) || !base.is_driven_twice());
   const auto measured = measures.at_instants(
-      {at.found.machine, motion,
-       at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
+      {at.machine, motion,
+       at.base_periods / (at.base_frequency * motion.points_per_period),
        request.frequency, closes});
-  std::vector<std::vector<Vec2>> forces{at.forces};
-  for (std::size_t b = 1; b < bearings; ++b)
-    forces.push_back(motion::bearing_forces(at.found.machine, motion, b));
-  const auto rows =
-      static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
-      request.points;
+  std::vector<std::vector<Vec2>> forces;
+  for (std::size_t b = 0; b < bearings; ++b)
+    forces.push_back(motion::bearing_forces(at.machine, motion, b));
+  const auto rows = static_cast<std::size_t>(std::max(request.periods, at.closes_after)) *
+                    request.points;
   const auto each = static_cast<std::size_t>(finer.points / request.points);
   for (std::size_t row_at = 0; row_at < rows; ++row_at) {
     const std::size_t k = each * row_at, same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
-    const double periods = at.found.base_periods * motion.t_over_period(k);
-    std::vector<Cell> row{2 * std::numbers::pi * periods, stator.x, stator.y, rotor.x,
-                          rotor.y};
+    const double periods = at.base_periods * motion.t_over_period(k);
+    std::vector<Cell> row{angular(periods), stator.x, stator.y, rotor.x, rotor.y};
     for (const auto& own : forces) {
       row.emplace_back(own[same].x);
       row.emplace_back(own[same].y);
     }
     for (const auto& [name, place] : outputs)
       row.emplace_back(motion::shown_at(motion, same, place));
-    row.emplace_back(periods / at.found.base_frequency);
+    row.emplace_back(periods / at.base_frequency);
     for (const auto& column : measured) row.emplace_back(column[same]);
     table.row(std::move(row));
   }
@@ -412,11 +392,11 @@ Exploration explore_contact(const MotionRequest& request)
                           most_points, bearing.balls));
   MotionRequest two = request;
   two.periods = 2;
-  const Computed at = computed(parameters, two, 2, table);
+  const FoundMotion at = computed(parameters, two, table);
   for (std::size_t b = 0; b < bearings; ++b) {
-    const motion::Motion& motion = at.found.motion;
-    const Bearing one = bearings_of(at.found.machine)[b];
-    const auto forces = motion::ball_forces(at.found.machine, motion, 2, b);
+    const motion::Motion& motion = at.motion;
+    const Bearing one = bearings_of(at.machine)[b];
+    const auto forces = motion::ball_forces(at.machine, motion, 2, b);
     for (Eigen::Index k = 0; k < forces.rows(); ++k)
       for (Eigen::Index j = 0; j < forces.cols(); ++j) {
         const double q = forces(k, j), time = motion.t_over_period(k);
@@ -425,7 +405,7 @@ Exploration explore_contact(const MotionRequest& request)
         std::vector<Cell> row{time,
                               j + 1,
                               q,
-                              time / at.found.base_frequency,
+                              time / at.base_frequency,
                               angular(angle - std::floor(angle)),
                               1e-6 * one.pressure * std::cbrt(q)};
         if (bearings > 1) row.insert(row.begin() + 1, b + 1);

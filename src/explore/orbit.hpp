@@ -6,25 +6,18 @@ other commands read their machine, bound their work and end their tables likewis
 #pragma once
 
 #include "explore/request.hpp"
-#include "model/parameters.hpp"
+#include "model/read_machine.hpp"
+#include "motion/answer.hpp"
 #include "motion/lines.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
 
-/** Of orbit, contact and spectrum. */
-struct MotionRequest : Request {
-  double frequency = 0;  ///< [Hz]
-  /** The motion from rest; or a method that `is_periodic`, or a time method. */
-  std::string method = "auto";
-  std::optional<double> tolerance;  ///< of displacement, relative
-  std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
-  int points = 256;                 ///< P
-  double local_error = 1e-11;       ///< GSL's methods, relative
-  double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;        ///< base periods that are printed
-  bool stability = true;  ///< Floquet multipliers in the header (aft)
+/** Of orbit, contact and spectrum: the motion from rest, with the speed in `frequency`
+    and `periods` as printed; or that of a method that `is_periodic`, which `is_measured`
+    gives its multipliers. */
+struct MotionRequest : Request, motion::Request {
+  double frequency = 0;           ///< [Hz]
+  std::optional<int> lines = {};  ///< of the settled motion, with two frequencies (aft)
 };
 
 Exploration explore_orbit(const MotionRequest& request);
@@ -45,10 +38,10 @@ inline const Column phase_column{
     "--periods K"};
 inline const Column time_column{"t", "s", "time since phase 0"};
 
-/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's
-    `nodes`. Throws BadInput. */
+/** The machine, right at these speeds [Hz], the request's harmonics and what else is in
+    `range`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
-                      const NumberTable* nodes = nullptr);
+                      ModelRange range = {});
 
 /**
 ## A motion */
@@ -56,8 +49,8 @@ Parameters machine_of(const Request& request, double from, double to,
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
 
-/** A motion, the machine counted over its period, and its lines, which a record leaves
-    out. */
+/** A motion, the machine counted over its period, its lines, which a record leaves out,
+    and what it has cost. */
 struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
@@ -67,21 +60,14 @@ struct FoundMotion {
   int base_periods = 1;         ///< in one period of the motion's points
   int closes_after = 0;         ///< K base periods, exactly; 0 for a record
   bool has_statistics = false;  ///< whether its means are in the header
-};
-
-/** A motion, the bearing's force at its instants, and what it has cost. */
-struct Computed {
-  FoundMotion found = {};
-  std::vector<Vec2> forces = {};
-  OperationBudget budget;
+  OperationBudget budget = {};
 
   bool touches() const;
 };
 
-/** The motion that is asked for, `open_periods` of one that does not close; how it was
-    found goes to the table's header. */
-Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  int open_periods, Table& table);
+/** The motion that is asked for; how it was found goes to the table's header. */
+FoundMotion computed(const Parameters& parameters, const MotionRequest& request,
+                     Table& table);
 
 /** Throws BadInput unless --from is below --to, or the same where one speed is taken. */
 void require_range(double from, double to, std::optional<int> count = 2);

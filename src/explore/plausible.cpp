@@ -17,20 +17,6 @@ double pitch_diameter(const Bearing& bearing)
   return bearing.radius_ratio > 0 ? bearing.ball_diameter / bearing.radius_ratio : 0;
 }
 
-}  // namespace
-
-double printable_size(double value)
-{
-  return std::min(value, 1e300);
-}
-
-double speed_value(const Bearing& bearing, double hertz)
-{
-  return printable_size(1e3 * pitch_diameter(bearing) * 60 * hertz);
-}
-
-namespace {
-
 /** About the speed; empty where bearings turn so fast. */
 std::string doubt_of_speed(const Parameters& machine, double highest)
 {
@@ -152,20 +138,15 @@ void add_sag(Doubts& all, const Parameters& machine)
                  printable_size(sag)));
 }
 
-/** Whether nothing takes energy from a free rotor. */
-bool is_undamped(const Parameters& machine)
-{
-  return machine.stator.rigid && machine.rotor.damper == 0 &&
-         std::ranges::none_of(joints_of(machine), &Bearing::is_damped);
-}
-
 /** About the damping of a free rotor, which vibrates on the bearing. */
 void add_damper(Doubts& all, const Parameters& machine)
 {
   const Body& rotor = machine.rotor;
   if (rotor.rigid || rotor.natural_frequency > 0) return;
+  const bool is_undamped = machine.stator.rigid && rotor.damper == 0 &&
+                           std::ranges::none_of(joints_of(machine), &Bearing::is_damped);
   all.add(
-      is_undamped(machine),
+      is_undamped,
       "nothing damps the rotor: its damping_N_s_per_m may decide whether it is chaotic");
   const double critical =
       2 * std::sqrt(rotor.mass * scales(machine).stiffness * machine.bearing.balls);
@@ -188,6 +169,16 @@ void add_bodies(Doubts& all, const Parameters& machine)
 }
 
 }  // namespace
+
+double printable_size(double value)
+{
+  return std::min(value, 1e300);
+}
+
+double speed_value(const Bearing& bearing, double hertz)
+{
+  return printable_size(1e3 * pitch_diameter(bearing) * 60 * hertz);
+}
 
 Doubts doubts(const Parameters& machine, double highest)
 {

@@ -1,16 +1,13 @@
 #include "explore/response.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "balance/bearing_problem.hpp"
+#include "balance/torus_line.hpp"
 #include "explore/response_branch.hpp"
 #include "explore/response_sweep.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
-#include "motion/contact.hpp"
-#include "motion/lines.hpp"
 
 namespace rotor_stator::explore {
 
@@ -75,22 +72,17 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
                "passing balls in a turn, and n*omega_cage/omega is %.9g",
                passages_per_turn(task.machine.bearing)));
   task.base_period = base.words();
-  if (base.kind == BasePeriod::Kind::passing) {
-    task.parameters = over_passage(task.machine);
-    task.passages = base.per_turn;
-  } else if (!base.is_driven_twice()) {
-    task.parameters = over_turns(task.machine, base.turns);
-    task.harmonics *= base.turns;
-    task.samples *= base.turns;
-  } else {
-    task.has_two_frequencies = true;
-    if (request.count)
-      throw BadInput("--count: with two frequencies the branch chooses its speeds");
-    if (request.samples || request.stability)
-      throw BadInput(
-          std::string(request.stability ? "--stability" : "--samples") +
-          ": not where n*omega_cage/omega is not a whole number; orbit judges");
-  }
+  task.parameters = over(base, task.machine, 0).machine;
+  task.harmonics *= base.turns;
+  task.samples *= base.turns;
+  if (base.kind == BasePeriod::Kind::passing) task.passages = base.per_turn;
+  task.has_two_frequencies = base.is_driven_twice();
+  if (!task.has_two_frequencies) return;
+  if (request.count)
+    throw BadInput("--count: with two frequencies the branch chooses its speeds");
+  if (request.samples || request.stability)
+    throw BadInput(std::string(request.stability ? "--stability" : "--samples") +
+                   ": not where n*omega_cage/omega is not a whole number; orbit judges");
 }
 
 }  // namespace

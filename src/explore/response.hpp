@@ -16,7 +16,6 @@ its motions. */
 #include "explore/branch_file.hpp"
 #include "explore/measures.hpp"
 #include "explore/orbit.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
 

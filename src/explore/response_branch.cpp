@@ -25,8 +25,7 @@ namespace {
 BranchPoint saved_start(const ResponseTask& task, Curve& curve, Table& table)
 {
   const ResponseRequest& request = task.request;
-  const double at = angular(request.at.value_or(0));
-  BranchPoint point = restart_point(*task.saved, request.at ? &at : nullptr, curve);
+  BranchPoint point = restart_point(*task.saved, request.at, curve);
   const double omega = point.motion.omega, frequency = omega / angular(1);
   if (omega < angular(request.from) || omega > angular(request.to))
     throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
@@ -336,15 +335,14 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
     motion.bodies = body_series(task_.parameters, motion);
   row.harmonics = harmonics_of(task_, motion.bodies);
   const Measures& measures = columns_.measures;
-  if (has_further_) {
-    const bool two = task_.has_two_frequencies;
-    const auto [points, turns] =
-        measures.recording(task_.parameters, motion.omega,
-                           two ? 128 : std::max(256, 4 * task_.harmonics + 4), 64);
+  if (has_further_ && task_.has_two_frequencies) {
+    const auto [points, turns] = measures.recording(task_.parameters, motion.omega, 128);
     const motion::Motion record =
-        two ? motion::motion_of(task_.parameters, motion, points, turns)
-            : motion::motion_of(motion, points);
-    row.measured = measures.of(record_of(task_.parameters, record, !two));
+        motion::motion_of(task_.parameters, motion, points, turns);
+    row.measured = measures.of(record_of(task_.parameters, record, false));
+  } else if (has_further_) {
+    row.measured =
+        measures.of(task_.parameters, motion, std::max(256, 4 * task_.harmonics + 4));
   }
   table_.row(columns_.fields, row);
   if (!has_lines) return;
@@ -403,39 +401,27 @@ Exploration branch_by_balance(ResponseTask task)
   return {std::move(table), std::move(files), unfinished};
 }
 
-/** Of a motion that closes, between its instants. */
-static Displacements amplitude_of(const motion::Motion& motion)
-{
-  const Eigen::MatrixXd q = motion::displacement_samples(motion);
-  Displacements amplitude;
-  for (int i = 0; i < 4; ++i) amplitude[i] = half_range(q.col(i), true);
-  return amplitude;
-}
-
 Exploration branch_by_shooting(const ResponseTask& task)
 {
   constexpr int points = 256;
   const ResponseRequest& request = task.request;
   const Parameters& machine = task.machine;
   require_rotation_period(machine, "shooting");
-  const SpeedRange range{angular(task.upwards ? request.from : request.to),
-                         angular(task.upwards ? request.to : request.from)};
+  const auto [from, to] = task.range();
   /** On the motion that the machine settles on where that has the period T. */
-  const Settled settled = settle(machine, range.from, BasePeriod{},
-                                 {static_start(machine), 0}, {}, task.budget);
+  const Settled settled =
+      settle(machine, from, BasePeriod{}, {static_start(machine), 0}, {}, task.budget);
   std::string start = "time integration";
   State state = settled.at.state;
   if (settled.period != 1) {
-    const auto closed =
-        motion::closed_motion({machine, range.from, task.harmonics, task.samples,
-                               task.settings.newton, task.budget},
-                              points, 1e-11);
+    const auto closed = motion::closed_motion(
+        {machine, from, task.harmonics, task.samples, task.settings.newton, task.budget},
+        points, 1e-11);
     start = closed.start;
     state = closed.state;
   }
   ShootingCurve curve(machine, task.budget);
-  const Branch branch =
-      follow_branch(curve, range.from, range.to, curve.unknowns_of(state));
+  const Branch branch = follow_branch(curve, from, to, curve.unknowns_of(state));
   const auto [fields, usual, measures] = branch_columns(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
@@ -449,16 +435,17 @@ Exploration branch_by_shooting(const ResponseTask& task)
   std::string why;
   for (const auto& [solution, arc, tangent] : branch.points) {
     const State there = curve.state(solution.x);
-    const auto finer = measures.recording(machine, solution.omega, points, 1);
-    const motion::Motion motion = motion::one_period(
-        machine, solution.omega, there, {.intervals_per_period = finer.points});
+    const int finer = measures.recording(machine, solution.omega, points).points;
+    const motion::Motion motion = motion::one_period(machine, solution.omega, there,
+                                                     {.intervals_per_period = finer});
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
-        .frequency = solution.omega / angular(1),
-        .amplitude = amplitude_of(motion),
+        .frequency = task.hertz(solution.omega),
         .arc = arc,
         .newton = solution.newton.iterations,
         .harmonics = harmonics_of(task, motion::series_of(motion, task.harmonics))};
+    const Eigen::MatrixXd q = motion::displacement_samples(motion);
+    for (int i = 0; i < 4; ++i) row.amplitude[i] = half_range(q.col(i), true);
     if (has_further) row.measured = measures.of(record_of(machine, motion, true));
     if (request.stability) try {
         put_multipliers(row, motion::multipliers_through(machine, solution.omega, there,

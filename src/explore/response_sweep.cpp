@@ -325,18 +325,14 @@ Exploration response_to_tolerance(const ResponseTask& task)
       throw NoSolution(format("tolerance %g not reached: ", tolerance) + at.end);
     before = at.motion.x;
     const Eigen::MatrixXd bodies = at.motion.bodies.topRows<4>();  // x_s … y_r
-    const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
     ResponseRow row{.frequency = frequency, .error = at.verdict.distance.larger()};
-    std::ranges::copy(amplitude, row.amplitude.begin());
+    std::ranges::copy(half_peak_to_peak(bodies), row.amplitude.begin());
     row.harmonics =
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)
                                .reshaped(4, 2 * task.harmonics + 1));
-    const int least = std::max(256, 4 * at.motion.harmonics.count() + 4);
-    const Measures& measures = sweep.columns.measures;
-    const int points = measures.recording(task.parameters, at.motion.omega, least).points;
     if (sweep.has_further)
-      row.measured = measures.of(
-          record_of(task.parameters, motion::motion_of(at.motion, points), true));
+      row.measured = sweep.columns.measures.of(
+          task.parameters, at.motion, std::max(256, 4 * at.motion.harmonics.count() + 4));
     if (motion::touches(task.parameters, at.motion)) sweep.touches = true;
     return row;
   };

@@ -175,14 +175,6 @@ struct Shaft {
   }
 };
 
-/** Of x along the whole shaft [kg]. */
-double mass_of(const SparseMatrix& m)
-{
-  Eigen::VectorXd along = Eigen::VectorXd::Zero(m.rows());
-  for (Eigen::Index node = 0; 4 * node < m.rows(); ++node) along[4 * node] = 1;
-  return along.dot(m * along);
-}
-
 /** What no shaft of metal or plastic has. */
 Doubts doubts_of(const Shaft& shaft, double over_stiffness)
 {
@@ -255,7 +247,9 @@ Exploration explore_shaft(const ShaftRequest& request)
   table.choose(request.columns, 6, false);
   table.parameters(request.parameter_file + " (" + title + ")");
   table.value("degrees_of_freedom", 4 * shaft.z.size());
-  table.value("mass", mass_of(m));
+  /** The whole shaft moves along x. */
+  const Eigen::VectorXd along = Eigen::Vector4d::Unit(0).replicate(m.rows() / 4, 1);
+  table.value("mass", along.dot(m * along));
   table.note("mass [kg]: of all; damping over_stiffness_s: over K with the supports");
   for (const std::string& doubt : doubts_of(shaft, over_stiffness)) table.warning(doubt);
   table.note("matrices: M, C, G, K in " + request.folder);

@@ -1,7 +1,6 @@
 #include "explore/shape.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "io/errors.hpp"
 #include "io/table.hpp"
@@ -39,7 +38,7 @@ Exploration explore_shape(const ShapeRequest& request)
                request.nodes.c_str(), nodes.rows(), instants, most_rows));
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
   const Parameters parameters =
-      machine_of(request, request.frequency, request.frequency, &nodes);
+      machine_of(request, request.frequency, request.frequency, {.nodes = &nodes});
   const LargeBodies* machine = parameters.bodies->matrices();
   if (!machine || machine->nodes.rows() == 0)
     throw BadInput(request.parameter_file +
@@ -49,12 +48,12 @@ Exploration explore_shape(const ShapeRequest& request)
                   : format("Orbits of a rotor's nodes over %d periods", request.periods),
               columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
-  const Computed at = computed(parameters, request, request.periods, table);
+  const FoundMotion at = computed(parameters, request, table);
   table.note("nodes: " + request.nodes);
   for (const auto& [bearing, i] : machine->bearing_nodes)
     table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});
-  const motion::Motion& motion = at.found.motion;
-  instants = static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
+  const motion::Motion& motion = at.motion;
+  instants = static_cast<std::size_t>(std::max(request.periods, at.closes_after)) *
              request.points;
   Eigen::MatrixXd places(machine->nodes.rows(), instants);
   Eigen::VectorXd q(machine->nodes.cols());
@@ -65,10 +64,10 @@ Exploration explore_shape(const ShapeRequest& request)
   }
   for (std::size_t i = 0; i < nodes.rows(); ++i)
     for (std::size_t k = 0; k < instants; ++k) {
-      const double periods = at.found.base_periods * motion.t_over_period(k);
+      const double periods = at.base_periods * motion.t_over_period(k);
       const auto place = places.col(k).segment<2>(2 * i);
-      table.row({number(i), nodes.at(i, "z"), 2 * std::numbers::pi * periods, place[0],
-                 place[1], periods / at.found.base_frequency});
+      table.row({number(i), nodes.at(i, "z"), angular(periods), place[0], place[1],
+                 periods / at.base_frequency});
     }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

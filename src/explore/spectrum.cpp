@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 #include "io/table.hpp"
 
@@ -13,36 +12,6 @@ namespace {
 
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
-
-/** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics
-    up to three times BPFO. */
-MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
-{
-  const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
-                       !request.lines && request.subharmonic == 1;
-  if (request.method == "aft" && is_free && turns_to_repeat({parameters.bearing}) > 0)
-    request.harmonics = static_cast<int>(
-        std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
-  return request;
-}
-
-/** Those that harmonic balance or shooting have found, or read from the record. */
-motion::Lines lines_of(const MotionRequest& request, Computed& at, Table& table)
-{
-  if (at.found.closes_after > 0) return std::move(at.found.lines);
-  const FoundMotion& found = at.found;
-  motion::Lines lines =
-      motion::lines_of_recorded(bearings_of(found.machine), found.motion);
-  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
-  const int turns = static_cast<int>(found.motion.size()) / request.points;
-  table.note(format(
-      "lines: least squares over %d base periods, window of Blackman and Harris, at most "
-      "200; lines nearer than %.3g of the speed may be taken for one; unexplained: "
-      "rms of the rest, in no line, over that about the mean",
-      turns, 4.0 / (turns * found.turns_of_period)));
-  table.value("unexplained", lines.rest, 2);
-  return lines;
-}
 
 }  // namespace
 
@@ -58,6 +27,15 @@ const std::vector<Column> line_columns{
     {"y_s", "m", "amplitude, stator"},
     {"x_r", "m", "amplitude, rotor"},
     {"y_r", "m", "amplitude, rotor"}};
+
+motion::Lines lines_of(const FoundMotion& found)
+{
+  if (found.closes_after > 0) return found.lines;
+  motion::Lines lines =
+      motion::lines_of_recorded(bearings_of(found.machine), found.motion);
+  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
+  return lines;
+}
 
 bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
                motion::Lines all, int passages, double smallest)
@@ -92,26 +70,39 @@ Exploration explore_spectrum(const MotionRequest& asked)
           measured.fail(k, std::string(name) + ": is beyond 1e30, too large to draw");
     table.note("overlay: " + *asked.overlay);
   }
-  const MotionRequest request = with_defaults(asked, parameters);
-  const bool is_recorded = !is_periodic(request.method);
-  /** Ten seconds in 64 to 256 turns. */
-  const int turns =
-      is_recorded
-          ? static_cast<int>(std::clamp(std::ceil(10 * request.frequency), 64.0, 256.0))
-          : request.subharmonic;
-  if (request.points > most_samples / turns)
+  MotionRequest request = asked;
+  const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
+                       !request.lines && request.subharmonic == 1;
+  /** Up to three times BPFO. */
+  if (request.method == "aft" && is_free && turns_to_repeat({parameters.bearing}) > 0)
+    request.harmonics = static_cast<int>(
+        std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
+  /** Ten seconds in 64 to 256 turns tell lines apart. */
+  request.periods =
+      is_periodic(request.method)
+          ? request.subharmonic
+          : static_cast<int>(std::clamp(std::ceil(10 * request.frequency), 64.0, 256.0));
+  if (request.points > most_samples / request.periods)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
-                          most_samples / turns, turns));
-  Computed at = computed(parameters, request, turns, table);
+                          most_samples / request.periods, request.periods));
+  const FoundMotion at = computed(parameters, request, table);
   if (request.method != "aft")
-    table.note(
-        format("samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
-               "higher ones are folded onto these",
-               request.points / at.found.turns_of_period,
-               request.points / at.found.turns_of_period / 2));
-  const motion::Lines lines = lines_of(request, at, table);
+    table.note(format(
+        "samples of shooting and time methods: %.6g per turn, orders up to %.6g; "
+        "higher ones are folded onto these",
+        request.points / at.turns_of_period, request.points / at.turns_of_period / 2));
+  const motion::Lines lines = lines_of(at);
+  if (at.closes_after == 0) {
+    const int turns = static_cast<int>(at.motion.size()) / request.points;
+    table.note(format(
+        "lines: least squares over %d base periods, window of Blackman and Harris, at "
+        "most 200; lines nearer than %.3g of the speed may be taken for one; "
+        "unexplained: rms of the rest, in no line, over that about the mean",
+        turns, 4.0 / (turns * at.turns_of_period)));
+    table.value("unexplained", lines.rest, 2);
+  }
   for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
-    if (!at.found.has_statistics) table.value(name, lines.mean[k++]);
+    if (!at.has_statistics) table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
@@ -119,7 +110,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
       "the smallest multiple of BPFI; else a multiple of FTF or BSF; of a second bearing "
       "BPFO_2, ..., and k_cage counts its cage");
   if (!add_lines(table, bearings_of(parameters), request.frequency, lines,
-                 at.found.closes_after > 0 ? 128 : 16, least))
+                 at.closes_after > 0 ? 128 : 16, least))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

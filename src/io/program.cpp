@@ -35,19 +35,19 @@ std::string unexpected(const CLI::App& app)
   const auto chosen = app.get_subcommands();
   for (const CLI::Option* option : (chosen.empty() ? app : *chosen.back()).get_options())
     known.push_back(option->get_name());
-  std::string commands;
+  std::vector<std::string> commands;
   if (chosen.empty())
-    for (const CLI::App* command : app.get_subcommands({})) {
-      known.push_back(command->get_name());
-      commands += (commands.empty() ? "; subcommands: " : ", ") + command->get_name();
-    }
+    for (const CLI::App* command : app.get_subcommands({}))
+      commands.push_back(command->get_name());
+  known.insert(known.end(), commands.begin(), commands.end());
   if (std::ranges::find(known, word) != known.end())
     return word + ": stands before the command; options come after it";
   for (const auto& [other, own] : instead)
     if (word == other && std::ranges::find(known, own) != known.end())
       return word + ": not expected; did you mean " + own +
              (own == std::string("--count") ? "?" : " 1500rpm?");
-  return word + ": not expected" + suggestion(word, known) + commands;
+  return word + ": not expected" + suggestion(word, known) +
+         (commands.empty() ? "" : "; subcommands: " + joined(commands, ", "));
 }
 
 }  // namespace

@@ -23,9 +23,6 @@ namespace rotor_stator {
     uncommitted changes; "unknown" outside git. */
 std::string source_revision();
 
-/** Compiler, version and flags. */
-std::string compiler();
-
 /**
 ## What a table says about itself
 

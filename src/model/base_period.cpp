@@ -46,7 +46,9 @@ BasePeriod base_period(const Parameters& parameters)
   return {q == 1 ? Kind::turn : Kind::turns, q, 1.0 / q};
 }
 
-Parameters over_passage(Parameters parameters)
+/** The machine without unbalance, where only the passing balls move anything: its base
+    frequency is n ω_cage. */
+static Parameters over_passage(Parameters parameters)
 {
   const double ratio = parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
   change_joints(parameters, [ratio](Bearing& joint) {

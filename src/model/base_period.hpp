@@ -35,10 +35,6 @@ BasePeriod base_period(const Parameters& parameters);
     where there are none. */
 int turns_to_repeat(const std::vector<Bearing>& bearings);
 
-/** The machine without unbalance, where only the passing balls move anything: its base
-    frequency is n ω_cage. */
-Parameters over_passage(Parameters parameters);
-
 /** A machine whose equations count base periods, and its base frequency [rad/s]. */
 struct Based {
   Parameters machine;

@@ -6,38 +6,12 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 
-EqualErrorScene read_equal_error(SceneFile& file, const std::string& error)
-{
-  if (error != "largest" && error != "mean")
-    throw BadInput("--error " + error + ": must be largest or mean");
-  StrictToml& toml = file.toml();
-  EqualErrorScene scene{
-      .parameters = read_parameters(file, "parameters"),
-      .frequencies = file.speed_range("speeds_hz"),
-      .range_ends = toml.numbers("range_ends_hz", Range::positive),
-      .targets = toml.numbers("targets", Range::positive),
-      .paper_ratios = toml.numbers("paper_ratios", Range::positive),
-      .candidates = read_candidates(toml),
-      .repetitions = toml.integer("repetitions", 1, 1000),
-      .search = toml.number("search_s", Range::positive),
-      .truth = {.settling = read_steady_settings(file)},
-      .error = error == "mean" ? &MotionError::mean : &MotionError::displacement};
-  if (!std::is_sorted(scene.range_ends.begin(), scene.range_ends.end()))
-    toml.fail("range_ends_hz", "must rise");
-  if (scene.range_ends.back() < scene.frequencies.back())
-    toml.fail("range_ends_hz", "must end at or above the last speed");
-  if (!std::is_sorted(scene.targets.rbegin(), scene.targets.rend()))
-    toml.fail("targets", "must fall");
-  toml.refuse_unknown_keys();
-  return scene;
-}
-
-std::vector<References> periodic_ranges(const EqualErrorScene& scene,
-                                        const References& references)
+/** The T-periodic speeds of each range with their references; no empty range. */
+static std::vector<References> periodic_ranges(const EqualErrorScene& scene,
+                                               const References& references)
 {
   std::vector<References> ranges(scene.range_ends.size(), {{scene.parameters, {}}, {}});
   for (const TrueMotion& truth : references.truths) {
@@ -51,9 +25,10 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
   return ranges;
 }
 
-std::vector<Measurement> try_settings(const EqualErrorScene& scene,
-                                      const References& range,
-                                      const Candidates& candidates)
+/** The settings of one method in one range, group by group. */
+static std::vector<Measurement> try_settings(const EqualErrorScene& scene,
+                                             const References& range,
+                                             const Candidates& candidates)
 {
   constexpr double clearly = 1.3;
   std::vector<Measurement> tried;
@@ -131,9 +106,9 @@ static std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
   return {};
 }
 
-EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Measurement>& tried, double target,
-                       const std::vector<EqualErrorRow>& rows)
+/** Of the settings tried. */
+static EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
+                              const std::vector<Measurement>& tried, double target)
 {
   constexpr std::size_t few = 4;
   std::vector<Measurement> good = tried;
@@ -143,21 +118,33 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   for (Measurement& m : good) m = measure(range, m.schedule, scene.repetitions);
   if (const auto schedule = schedule_by_speed(scene, range, tried, target))
     good.push_back(measure(range, *schedule, scene.repetitions));
-  EqualErrorRow row{
-      good.empty()
-          ? *std::ranges::min_element(tried, {}, [&](auto& m) { return m.*scene.error; })
-          : *std::ranges::min_element(good, {}, &Measurement::median),
-      format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-      range.frequencies.size(),
-      tried.size(),
-      target,
-      !good.empty()};
-  if (row.reached && row.schedule.method() == "aft") row.ratio = 1;
-  for (const EqualErrorRow& aft : rows)
-    if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&
-        aft.target == target)
-      row.ratio = row.median / aft.median;
-  return row;
+  return {good.empty() ? *std::ranges::min_element(
+                             tried, {}, [&](auto& m) { return m.*scene.error; })
+                       : *std::ranges::min_element(good, {}, &Measurement::median),
+          format("%g-%g", range.frequencies.front(), range.frequencies.back()),
+          range.frequencies.size(),
+          tried.size(),
+          target,
+          !good.empty()};
+}
+
+std::vector<EqualErrorRow> at_equal_error(const EqualErrorScene& scene,
+                                          const References& references)
+{
+  std::vector<EqualErrorRow> rows;
+  for (const References& range : periodic_ranges(scene, references))
+    for (const Candidates& method : watched("methods", scene.candidates)) {
+      const std::vector<Measurement> tried = try_settings(scene, range, method);
+      for (double target : scene.targets) {
+        rows.push_back(cheapest(scene, range, tried, target));
+        EqualErrorRow& row = rows.back();
+        for (const EqualErrorRow& aft : rows)
+          if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&
+              aft.target == target)
+            row.ratio = row.median / aft.median;
+      }
+    }
+  return rows;
 }
 
 Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
@@ -167,7 +154,7 @@ Setting cheapest_rk4(const std::vector<Setting>& settings, const References& ref
     throw NoSolution(
         format("no harmonic-balance solution at %g Hz", target.worst_frequency));
   for (const Setting& setting : watched("RK4 settings", settings)) {
-    const MotionError error = error_up_to(target.displacement, references, setting);
+    const MotionError error = measure(references, setting, 1);
     if (error.displacement <= target.displacement && error.force <= target.force)
       return setting;
   }
@@ -175,69 +162,6 @@ Setting cheapest_rk4(const std::vector<Setting>& settings, const References& ref
       format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g of "
              "force",
              target.displacement, target.force));
-}
-
-namespace {
-
-using Row = EqualErrorRow;
-
-const std::vector<Field<Row>> equal_error_fields{
-    {"range", "Hz", "first and last T-periodic speed of the sweep", &Row::range},
-    {"target", "-", "largest error allowed", &Row::target},
-    {"method", "-",
-     "aft: harmonic balance; rk4; splitting; -lanes: all speeds side by side; central "
-     "differences; rk8; GSL's; shooting- with one of them",
-     [](auto& r) { return r.schedule.method(); }},
-    {"setting", "-",
-     "the cheapest that reaches the target; least..most where it differs by speed",
-     [](auto& r) { return r.schedule.text(); }},
-    {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
-     &Row::median},
-    {"error", "-", "largest relative error of displacement over the speeds",
-     &Row::displacement},
-    {"error_force", "-", "largest relative error of force over the speeds", &Row::force},
-    {"ratio", "-", "CPU over that of aft at the same target; 0 where aft has none",
-     &Row::ratio},
-    {"cpu_min_s", "s", "least", &Row::least},
-    {"cpu_max_s", "s", "most", &Row::most},
-    {"worst_f", "Hz", "speed with the largest error of displacement",
-     &Row::worst_frequency},
-    {"speeds", "-", "number of speeds", &Row::speeds},
-    {"evaluations", "-", "evaluations of the bearing's force, one instant each",
-     &Row::force_instants},
-    {"tried", "-", "settings tried", &Row::tried},
-    {"error_mean", "-", "largest rms error about the mean over the speeds", &Row::mean}};
-
-}  // namespace
-
-Table equal_error_table(const EqualErrorScene& scene, const References& references,
-                        const std::vector<EqualErrorRow>& rows)
-{
-  Table table(
-      "CPU time of the same sweep at equal error, every method at its best setting",
-      equal_error_fields);
-  describe(table, scene.parameters);
-  table.value("from", scene.frequencies.front());
-  table.value("to", scene.frequencies.back());
-  table.value("repetitions", scene.repetitions);
-  table.value("bounded", scene.error == &MotionError::mean ? "error_mean" : "error");
-  table.note(
-      "speeds with T-periodic motion, in order; bounded: the column of the targets");
-  table.note(
-      format("the search of a method in a range ends after %g s of CPU", scene.search));
-  table.note(what_is_timed);
-  references.describe(table, scene.truth);
-  table.row_line("paper_ratios", {scene.paper_ratios.begin(), scene.paper_ratios.end()});
-  table.note("paper_ratios: RK4 to harmonic balance with 6, 8 and 10 harmonics");
-  for (const EqualErrorRow& row : rows)
-    if (row.reached)
-      table.row(equal_error_fields, row);
-    else
-      table.note(format("not reached: %s, %s Hz, target %g; ",
-                        row.schedule.method().c_str(), row.range.c_str(), row.target) +
-                 (std::isfinite(row.*scene.error) ? format("best %.2g", row.*scene.error)
-                                                  : "no setting solves every speed"));
-  return table;
 }
 
 }  // namespace rotor_stator::costs

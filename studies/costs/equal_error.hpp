@@ -28,18 +28,6 @@ struct EqualErrorScene {
   double MotionError::*error = &MotionError::displacement;  ///< that the targets bound
 };
 
-/** `error`: "largest" or "mean". */
-EqualErrorScene read_equal_error(SceneFile& file, const std::string& error);
-
-/** The T-periodic speeds of each range with their references; no empty range. */
-std::vector<References> periodic_ranges(const EqualErrorScene& scene,
-                                        const References& references);
-
-/** The settings of one method in one range, group by group. */
-std::vector<Measurement> try_settings(const EqualErrorScene& scene,
-                                      const References& range,
-                                      const Candidates& candidates);
-
 /** One method in one range at one target: its cheapest settings that reach the target, or
     the setting with the least error where none does. */
 struct EqualErrorRow : Measurement {
@@ -50,18 +38,14 @@ struct EqualErrorRow : Measurement {
   double ratio = 0;  ///< CPU over that of aft; 0 where aft has not reached the target
 };
 
-/** Of the settings tried. `rows` has that of aft, if it is to be compared with. */
-EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Measurement>& tried, double target,
-                       const std::vector<EqualErrorRow>& rows);
+/** Every method in every range of T-periodic speeds at every target. */
+std::vector<EqualErrorRow> at_equal_error(const EqualErrorScene& scene,
+                                          const References& references);
 
 /** The first of these settings, cheapest first, that reaches both errors of a balance.
-    Nothing is timed. Throws NoSolution when the balance failed at a periodic speed, or
-    when none reaches them. */
+    Throws NoSolution when the balance failed at a periodic speed, or when none reaches
+    them. */
 Setting cheapest_rk4(const std::vector<Setting>& settings, const References& references,
                      const MotionError& target);
-
-Table equal_error_table(const EqualErrorScene& scene, const References& references,
-                        const std::vector<EqualErrorRow>& rows);
 
 }  // namespace rotor_stator::costs

@@ -3,8 +3,10 @@
 #include <time.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <ranges>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
@@ -33,34 +35,27 @@ int Setting::sample_count() const
 
 std::string Schedule::text() const
 {
-  struct Part {
-    double (*of)(const Setting&);
-    const char *before, *after = "";
-  };
-  constexpr Part parts[] = {
-      {[](auto& s) { return static_cast<double>(s.harmonics); }, "m="},
-      {[](auto& s) { return static_cast<double>(s.samples_per_harmonic); }, "N>", "m"},
-      {[](auto& s) { return s.step; }, "step="},
-      {[](auto& s) { return s.tolerance; }, "tol="},
-      {[](auto& s) { return s.transient; }, "transient="},
-      {[](auto& s) { return s.periodicity_residual; }, "closure="}};
   std::string words;
-  for (const Part& part : parts) {
-    const auto [least, most] = std::ranges::minmax(settings_, {}, part.of);
-    if (part.of(most) <= 0) continue;
-    if (!words.empty()) words += " ";
-    words += part.before + format("%g", part.of(least));
-    if (part.of(least) < part.of(most)) words += format("..%g", part.of(most));
-    words += part.after;
-  }
+  const auto add = [&](const std::string& before, auto part, const char* after = "") {
+    const auto [least, most] =
+        std::ranges::minmax(std::views::transform(settings_, part));
+    if (most <= 0) return;
+    words += (words.empty() ? "" : " ") + before + format("%g", 1.0 * least);
+    if (least < most) words += format("..%g", 1.0 * most);
+    words += after;
+  };
+  add("m=", &Setting::harmonics);
+  add("N>", &Setting::samples_per_harmonic, "m");
+  add("step=", &Setting::step);
+  add("tol=", &Setting::tolerance);
+  add("transient=", &Setting::transient);
+  add("closure=", &Setting::periodicity_residual);
   return words;
 }
 
-namespace {
-
 /** A group for each number of harmonics and each start: which is cheaper depends on the
     speeds. */
-std::vector<SettingGroup> balances(StrictToml table)
+static std::vector<SettingGroup> balances(StrictToml table)
 {
   const auto transients = table.numbers("transients_s", Range::not_negative);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
@@ -81,7 +76,7 @@ std::vector<SettingGroup> balances(StrictToml table)
 }
 
 /** A group for each step or local error. */
-std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
+static std::vector<SettingGroup> integrations(StrictToml table, const std::string& method)
 {
   const Setting plain{.method = method};
   const bool fixed_step = has_fixed_step(plain.stepper()) || method == "central";
@@ -102,8 +97,6 @@ std::vector<SettingGroup> integrations(StrictToml table, const std::string& meth
   }
   return groups;
 }
-
-}  // namespace
 
 std::vector<Candidates> read_candidates(StrictToml& toml)
 {
@@ -141,6 +134,12 @@ CpuTime time_of(int repetitions, const std::function<void()>& work)
   return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
 }
 
+void TimedMethod::begin()
+{
+  counts_ = {};
+  state_ = task_.before ? task_.before->state : static_start(task_.parameters);
+}
+
 void TimedMethod::run()
 {
   begin();
@@ -151,11 +150,11 @@ std::vector<double> TimedMethod::seconds_by_speed()
 {
   std::vector<double> seconds;
   for (std::size_t k = 0; k < task_.frequencies.size(); ++k) {
-    const CpuTime time = time_of(1, [&] {
+    const auto one = [&] {
       if (k == 0) begin();
       solve(k);
-    });
-    seconds.push_back(time.median);
+    };
+    seconds.push_back(time_of(1, one).median);
   }
   return seconds;
 }
@@ -183,11 +182,11 @@ static long whole_periods(double seconds, double omega)
   return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi) - 1e-9));
 }
 
-long TimedMethod::advance(Flow& whole, double seconds, double omega, State& state)
+long TimedMethod::advance(Flow& whole, double seconds, double omega)
 {
   const long before = whole.evaluations();
   const long periods = whole_periods(seconds, omega);
-  for (long k = 0; k < periods; ++k) whole.advance(k, state);
+  for (long k = 0; k < periods; ++k) whole.advance(k, state_);
   counts_.force_instants += whole.evaluations() - before;
   return periods;
 }
@@ -214,13 +213,11 @@ public:
   {
     Counts counts = counts_;
     for (const auto& [size, one] : balances_) {
-      const long samples = size.second, evaluations = one->balance.evaluations();
-      const long transforms =
+      const long evaluations = one->balance.evaluations();
+      counts.force_instants += evaluations * size.second;
+      counts.transforms +=
           4 * (evaluations + one->solver.factorisations() + one->solver.iterations());
-      counts.force_instants += evaluations * samples;
-      counts.transforms += transforms;
     }
-    counts.force_seconds = force_seconds_;
     return counts;
   }
 
@@ -232,23 +229,21 @@ private:
 
   void begin() override
   {
-    counts_ = {};
+    TimedMethod::begin();
     bodies_.assign(task_.frequencies.size(), {});
     balances_.clear();
-    force_seconds_ = 0;
-    state_ = task_.before ? task_.before->state : static_start(task_.parameters);
-    ArcLengthSettings settings = arc_length_settings(task_.parameters);
+    const ArcLengthSettings settings = arc_length_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) predictor_.add(before_, angular(task_.before->frequency));
     setting_ = schedule_.at(0);
     if (!setting_.paper_sweep) return;
     /** The paper's sweep goes over all speeds at once. */
-    settings.newton.tolerance = setting_.tolerance;
-    const auto found = sweep(
-        solved().balance, angular(task_.frequencies),
-        [&](double omega) { return contact(omega); }, settings);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k].found()) bodies_[k] = body_series(task_.parameters, found[k]);
+    const auto found = sweep(task_.parameters, angular(task_.frequencies),
+                             setting_.harmonics, setting_.sample_count());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      bodies_[k] = found[k].bodies;
+      counts_.force_instants += found[k].force_samples;
+    }
   }
 
   void solve(std::size_t speed) override
@@ -268,7 +263,7 @@ private:
     if (one) return *one;
     Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
     if (task_.profiled)
-      problem.force = [inner = problem.force, &seconds = force_seconds_](
+      problem.force = [inner = problem.force, &seconds = counts_.force_seconds](
                           const auto& q, auto&&... results) {
         const double start = thread_cpu_seconds();
         inner(q, results...);
@@ -292,15 +287,12 @@ private:
     if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
       return true;
     if (!predictor_.empty() && from(predictor_.at_speed(found.omega))) return true;
-    if (setting_.harmonics <= few && from(contact(found.omega))) return true;
+    if (setting_.harmonics <= few &&
+        from(quasi_static_start(task_.parameters, found.omega, setting_.harmonics)))
+      return true;
     for (double seconds : {0.5, 1.0, 2.0})
       if (from(integrated(found.omega, seconds))) return true;
     return false;
-  }
-
-  Eigen::VectorXd contact(double omega) const
-  {
-    return quasi_static_start(task_.parameters, omega, setting_.harmonics);
   }
 
   /** The period after so many seconds of RK4, with steps that are too long for a result
@@ -314,29 +306,27 @@ private:
       return flow(p, omega,
                   {.method = "rk4", .intervals_per_period = intervals, .step = step});
     };
-    advance(*rk4(1), seconds, omega, state_);
+    advance(*rk4(1), seconds, omega);
     const auto parts = rk4(points);
     const motion::Motion last = motion::recorded(*parts, points, state_);
     counts_.force_instants += parts->evaluations();
     if (vector_of(state_).allFinite())
       return motion::relative_series(p, last, setting_.harmonics);
     state_ = static_start(p);
-    return contact(omega);
+    return quasi_static_start(p, omega, setting_.harmonics);
   }
 
   Setting setting_;         ///< of the speed at hand
   Eigen::VectorXd before_;  ///< the solution that is known, if any
   std::map<std::pair<int, int>, std::unique_ptr<Solved>> balances_;  ///< by m and N
-  State state_;  ///< of the coarse integration, at phase 0
   LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
-  double force_seconds_ = 0;
 };
 
 /** Time integration and shooting end in a state at each speed; one period from it, by the
     same method at the same setting, is the motion. */
 class Integration : public TimedMethod {
-public:
+protected:
   using TimedMethod::TimedMethod;
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
@@ -344,19 +334,16 @@ public:
     if (!reached_[speed]) return {};
     auto [periods, state] = *reached_[speed];
     try {
-      const auto parts = stepper(speed, points);
-      return motion::recorded(*parts, points, state, periods);
+      return motion::recorded(*stepper(speed, points), points, state, periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
     }
   }
 
-protected:
   void begin() override
   {
-    counts_ = {};
+    TimedMethod::begin();
     reached_.assign(task_.frequencies.size(), {});
-    state_ = task_.before ? task_.before->state : static_start(task_.parameters);
   }
 
   /** A transient at each speed. */
@@ -365,7 +352,7 @@ protected:
     const double omega = angular(task_.frequencies[speed]);
     const Setting& setting = schedule_.at(speed);
     try {
-      const long periods = advance(*stepper(speed, 1), setting.transient, omega, state_);
+      const long periods = advance(*stepper(speed, 1), setting.transient, omega);
       reached_[speed] = {periods, state_};
       if (setting.recorded == 0) return;
       const auto parts = stepper(speed, setting.recorded);
@@ -378,7 +365,6 @@ protected:
 
   /** A state of the motion at phase 0, so many periods after t = 0. */
   std::vector<std::optional<std::pair<long, State>>> reached_;
-  State state_;
 };
 
 /** Newton on the period map at each speed. */
@@ -390,27 +376,22 @@ class ShootingSweep : public Integration {
     Integration::begin();
     predictor_ = {1, arc_length_settings(task_.parameters).speed_scale};
     jacobian_.resize(0, 0);
-    if (task_.before) learn(angular(task_.before->frequency), state_);
+    if (task_.before) learn(angular(task_.before->frequency));
   }
 
   void solve(std::size_t speed) override
   {
     const double omega = angular(task_.frequencies[speed]);
-    bool found = false;
-    if (!predictor_.empty()) {
-      const Vector8 x = predictor_.at_speed(omega).cwiseProduct(scales_);
-      state_ = state_of(x);
-      found = shot(speed);
-    }
-    if (!found) {
+    if (!predictor_.empty())
+      state_ = state_of(predictor_.at_speed(omega).cwiseProduct(scales_));
+    if (predictor_.empty() || !shot(speed)) {
       predictor_.clear();
       jacobian_.resize(0, 0);
       state_ = quasi_static_state(task_.parameters, omega);
-      advance(*stepper(speed, 1), schedule_.at(speed).transient, omega, state_);
-      found = shot(speed);
+      advance(*stepper(speed, 1), schedule_.at(speed).transient, omega);
+      if (!shot(speed)) return;
     }
-    if (!found) return;
-    learn(omega, state_);
+    learn(omega);
     reached_[speed] = {0, state_};
   }
 
@@ -429,9 +410,9 @@ class ShootingSweep : public Integration {
     return result.converged;
   }
 
-  void learn(double omega, const State& state)
+  void learn(double omega)
   {
-    predictor_.add(vector_of(state).cwiseQuotient(scales_), omega);
+    predictor_.add(vector_of(state_).cwiseQuotient(scales_), omega);
   }
 
   const Vector8 scales_ = state_scales(task_.parameters);
@@ -441,30 +422,23 @@ class ShootingSweep : public Integration {
 
 /** All speeds side by side, each from quasi-static contact. */
 class Ensemble : public Integration {
-public:
   using Integration::Integration;
 
   void begin() override
   {
     Integration::begin();
-    evaluations_.clear();
-    const std::size_t speeds = task_.frequencies.size();
-    std::vector<std::unique_ptr<Flow>> flows;
-    std::vector<State> states(speeds);
+    flows_.clear();
     std::vector<Passage> passages;
-    for (std::size_t k = 0; k < speeds; ++k) {
+    for (std::size_t k = 0; k < reached_.size(); ++k) {
       const double omega = angular(task_.frequencies[k]);
-      states[k] = quasi_static_state(task_.parameters, omega);
-      flows.push_back(stepper(k, 1));
-      passages.push_back({flows.back().get(), 0, &states[k],
-                          whole_periods(schedule_.at(k).transient, omega)});
+      auto& [periods, state] =
+          reached_[k].emplace(whole_periods(schedule_.at(k).transient, omega),
+                              quasi_static_state(task_.parameters, omega));
+      flows_.push_back(stepper(k, 1));
+      passages.push_back({flows_.back().get(), 0, &state, periods});
     }
     const std::vector<Failure> failures = advance_together(passages);
-    for (std::size_t k = 0; k < speeds; ++k) {
-      evaluations_.push_back(flows[k]->evaluations());
-      counts_.force_instants += evaluations_.back();
-      reached_[k] = {passages[k].count, states[k]};
-    }
+    for (const auto& flow : flows_) counts_.force_instants += flow->evaluations();
     for (const Failure& failure : failures) reached_[failure.passage].reset();
   }
 
@@ -476,23 +450,13 @@ public:
     const double whole = time_of(1, [&] { begin(); }).median;
     const auto all = static_cast<double>(std::max(1L, counts_.force_instants));
     std::vector<double> seconds;
-    for (long one : evaluations_)
-      seconds.push_back(whole * static_cast<double>(one) / all);
+    for (const auto& one : flows_)
+      seconds.push_back(whole * static_cast<double>(one->evaluations()) / all);
     return seconds;
   }
 
-private:
-  std::vector<long> evaluations_;
+  std::vector<std::unique_ptr<Flow>> flows_;
 };
-
-MotionError error_at(const TimedMethod& method, const References& sweep,
-                     std::size_t speed)
-{
-  const TrueMotion& truth = sweep.truths[speed];
-  if (!truth.periodic) return {};
-  return error_of(sweep.parameters, method.motion(speed, truth.motion.points_per_period),
-                  truth);
-}
 
 }  // namespace
 
@@ -503,6 +467,22 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
   if (schedule.method() == "aft") return std::make_unique<BalanceSweep>(task, schedule);
   if (schedule.at(0).is_ensemble()) return std::make_unique<Ensemble>(task, schedule);
   return std::make_unique<Integration>(task, schedule);
+}
+
+static MotionError error_of(const Parameters& parameters,
+                            const std::optional<motion::Motion>& motion,
+                            const TrueMotion& truth)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!motion) return {infinity, infinity, infinity};
+  /** Of a motion that has diverged it may be no number. */
+  const auto known = [&](double error) {
+    return std::isfinite(error) ? error : infinity;
+  };
+  return {.displacement = known(motion::relative_difference(*motion, truth.motion)),
+          .force =
+              known(motion::relative_force_difference(parameters, *motion, truth.motion)),
+          .mean = known(motion::rms_difference(*motion, truth.motion))};
 }
 
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions)
@@ -516,33 +496,28 @@ Measurement measure(const References& sweep, const Schedule& schedule, int repet
       method->run();
   });
   Measurement result{time, method->counts(), {}, schedule, repetitions, seconds};
-  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
-    result.errors.push_back(error_at(*method, sweep, speed));
-    result.include(result.errors.back());
+  for (std::size_t speed = 0; const TrueMotion& truth : sweep.truths) {
+    MotionError& error = result.errors.emplace_back();
+    if (truth.periodic)
+      error = error_of(sweep.parameters,
+                       method->motion(speed, truth.motion.points_per_period), truth);
+    if (error.displacement > result.displacement) {
+      result.displacement = error.displacement;
+      result.worst_frequency = truth.frequency;
+    }
+    result.force = std::max(result.force, error.force);
+    result.mean = std::max(result.mean, error.mean);
+    ++speed;
   }
   return result;
 }
 
-MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule)
-{
-  const auto method = timed_method(sweep, schedule);
-  MotionError error;
-  method->begin();
-  for (std::size_t k = 0; k < sweep.frequencies.size() && error.displacement <= bound;
-       ++k) {
-    method->solve(k);
-    error.include(error_at(*method, sweep, k));
-  }
-  return error;
-}
-
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
 {
-  const auto logarithms = [](const std::vector<double>& values) -> Eigen::ArrayXd {
-    return Eigen::ArrayXd::Map(values.data(), std::ssize(values)).log();
-  };
-  const Eigen::ArrayXd log_x = logarithms(x), off = log_x - log_x.mean();
-  return (off * logarithms(y)).sum() / off.square().sum();
+  const Eigen::ArrayXd log_x = Eigen::ArrayXd::Map(x.data(), std::ssize(x)).log();
+  const Eigen::ArrayXd log_y = Eigen::ArrayXd::Map(y.data(), std::ssize(y)).log();
+  const Eigen::ArrayXd off = log_x - log_x.mean();
+  return (off * log_y).sum() / off.square().sum();
 }
 
 }  // namespace rotor_stator::costs

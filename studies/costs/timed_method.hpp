@@ -32,14 +32,14 @@ namespace rotor_stator::costs {
     (central differences), or shooting- with a time method behind it. */
 struct Setting {
   std::string method;
-  int harmonics = 0;             ///< aft: m
-  int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
-  int samples = 0;               ///< aft: N itself, instead
-  bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
-  double tolerance = 0;      ///< aft: Newton's; time: local error
-  double step = 0;           ///< fixed, its own [s]
-  double transient = 0;      ///< at each speed [s]; of aft, that of its start
-  int recorded = 0;          ///< time integration: intervals of a last period
+  int harmonics = 0;                ///< aft: m
+  int samples_per_harmonic = 0;     ///< aft: N is a fast size above this times m
+  int samples = 0;                  ///< aft: N itself, instead
+  bool paper_sweep = false;         ///< aft: continuation/sweep.hpp, with its tolerance
+  double tolerance = 0;             ///< aft: Newton's; time: local error
+  double step = 0;                  ///< fixed, its own [s]
+  double transient = 0;             ///< at each speed [s]; of aft, that of its start
+  int recorded = 0;                 ///< time integration: intervals of a last period
   double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
@@ -106,8 +106,6 @@ public:
 
   /** All the work anew: it begins, and solves one speed after the other. */
   void run();
-  virtual void begin() = 0;
-  virtual void solve(std::size_t speed) = 0;
 
   /** Runs once and returns the CPU [s] of each speed. */
   virtual std::vector<double> seconds_by_speed();
@@ -118,19 +116,30 @@ public:
   virtual Counts counts() const { return counts_; }
 
 protected:
+  virtual void begin();
+  virtual void solve(std::size_t speed) = 0;
+
   /** Of the time method at a speed. */
   std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
-  /** Integrates whole periods from phase 0, so many seconds at least. Returns their
-      number. */
-  long advance(Flow& whole, double seconds, double omega, State& state);
+  /** Integrates `state_` over whole periods from phase 0, so many seconds at least.
+      Returns their number. */
+  long advance(Flow& whole, double seconds, double omega);
 
   Task task_;
   Schedule schedule_;
   Counts counts_;
+  State state_;  ///< at phase 0: what time integration, also of a start, goes on from
 };
 
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& schedule);
+
+/** The largest errors over some speeds [-]; infinite where one has no solution. */
+struct MotionError {
+  double displacement = 0, force = 0;  ///< largest difference over the largest value
+  double mean = 0;                     ///< of displacement, rms about the mean
+  double worst_frequency = 0;          ///< where the displacement is worst [Hz]
+};
 
 /** One method over all speeds of a sweep: what it costs, and how far off it is. */
 struct Measurement : CpuTime, Counts, MotionError {
@@ -141,10 +150,6 @@ struct Measurement : CpuTime, Counts, MotionError {
 };
 
 Measurement measure(const References& sweep, const Schedule& schedule, int repetitions);
-
-/** The largest error over the speeds, as far as it is not above `bound`: the run ends at
-    the first speed that is. */
-MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule);
 
 /** p of y = a x^p by least squares of the logarithms; two points at least, all
     positive. */

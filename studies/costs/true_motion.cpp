@@ -1,8 +1,6 @@
 #include "costs/true_motion.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "balance/find.hpp"
 #include "io/errors.hpp"
@@ -80,32 +78,6 @@ void References::describe(Table& table, const TruthSettings& settings) const
   table.row_line("not_periodic", others);
   table.note(
       "not_periodic: speeds [Hz] without a T-periodic motion, which have no reference");
-}
-
-void MotionError::include(const MotionError& other)
-{
-  if (other.displacement > displacement) {
-    displacement = other.displacement;
-    worst_frequency = other.worst_frequency;
-  }
-  force = std::max(force, other.force);
-  mean = std::max(mean, other.mean);
-}
-
-MotionError error_of(const Parameters& parameters,
-                     const std::optional<motion::Motion>& motion, const TrueMotion& truth)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!motion) return {infinity, infinity, infinity, truth.frequency};
-  /** Of a motion that has diverged it may be no number. */
-  const auto known = [&](double error) {
-    return std::isfinite(error) ? error : infinity;
-  };
-  return {.displacement = known(motion::relative_difference(*motion, truth.motion)),
-          .force =
-              known(motion::relative_force_difference(parameters, *motion, truth.motion)),
-          .mean = known(motion::rms_difference(*motion, truth.motion)),
-          .worst_frequency = truth.frequency};
 }
 
 }  // namespace rotor_stator::costs

@@ -65,17 +65,4 @@ References true_motions(const Parameters& parameters,
                         const std::vector<double>& frequencies,
                         const TruthSettings& settings);
 
-/** The largest errors over some speeds [-]; infinite where one has no solution. */
-struct MotionError {
-  double displacement = 0, force = 0;  ///< largest difference over the largest value
-  double mean = 0;                     ///< of displacement, rms about the mean
-  double worst_frequency = 0;          ///< where the displacement is worst [Hz]
-
-  void include(const MotionError& other);
-};
-
-MotionError error_of(const Parameters& parameters,
-                     const std::optional<motion::Motion>& motion,
-                     const TrueMotion& truth);
-
 }  // namespace rotor_stator::costs

@@ -6,33 +6,21 @@
 
 namespace rotor_stator::deviations {
 
-DeviationScene read_deviation_scene(SceneFile& file)
+DeviationScene read_deviation_scene(const SceneFile& file)
 {
   if (file.reading() != "exchanged")
     throw BadInput("--reading " + file.reading() +
                    ": must be exchanged; the deviations compare both readings (D-09)");
-  StrictToml& toml = file.toml();
-  return {.toml = toml,
-          .machine = read_parameters(file, "parameters"),
-          .printed = read_parameters(file, "printed_parameters"),
-          .harmonics = toml.integer("harmonics", 1, 64),
-          .speed = toml.number("speed_hz", Range::positive),
-          .gravity_speed = toml.number("gravity_speed_hz", Range::positive),
-          .transition_speed = toml.number("transition_speed_hz", Range::positive),
-          .range = file.speed_range("range_hz"),
-          .time_integration = read_steady_settings(file)};
+  return {file};
 }
 
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples,
-                                const NewtonSettings& settings)
+PeriodicMotion require_periodic(const BalanceSearch& search)
 {
-  const PeriodicMotion solution = motion::find_periodic(
-      {machine, angular(frequency), harmonics,
-       samples > 0 ? samples : default_samples(harmonics), settings});
+  const PeriodicMotion solution = motion::find_periodic(search);
   if (!solution.found())
-    throw NoSolution(format("%s: %d harmonics at %g Hz: %s", machine.file.c_str(),
-                            harmonics, frequency, solution.newton.reason().c_str()));
+    throw NoSolution(format("%s: %d harmonics at %g Hz: %s",
+                            search.parameters.file.c_str(), search.harmonics,
+                            search.omega / angular(1), solution.newton.reason().c_str()));
   return solution;
 }
 

@@ -8,8 +8,7 @@ or one closed form each. What only one entry asks for is read where it is used. 
 
 #include <functional>
 
-#include "balance/newton.hpp"
-#include "io/table.hpp"
+#include "balance/find.hpp"
 #include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
@@ -24,22 +23,22 @@ struct Evidence {
 };
 using EvidenceList = std::vector<Evidence>;
 
-/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
-    NoSolution if there is none. */
-PeriodicMotion require_periodic(const Parameters& machine, double frequency,
-                                int harmonics, int samples = 0,
-                                const NewtonSettings& settings = {});
+/** The periodic solution. Throws NoSolution if there is none. */
+PeriodicMotion require_periodic(const BalanceSearch& search);
 
 struct DeviationScene {
-  StrictToml toml;
-  Parameters machine;         ///< exchanged reading
-  Parameters printed;         ///< the printed one (D-09)
-  int harmonics;              ///< m
-  double speed;               ///< where the contact rotates [Hz]
-  double gravity_speed;       ///< where gravity dominates [Hz]
-  double transition_speed;    ///< between them [Hz]
-  std::vector<double> range;  ///< the speeds of Fig. 3 [Hz]
-  SteadySettings time_integration;
+  SceneFile file;
+  StrictToml toml = file.toml();
+  Parameters machine = read_parameters(file, "parameters");  ///< exchanged reading
+  Parameters printed = read_parameters(file, "printed_parameters");  ///< D-09
+  int harmonics = toml.integer("harmonics", 1, 64);                  ///< m
+  /** Where the contact rotates, where gravity dominates, and between them [Hz]. */
+  double speed = toml.number("speed_hz", Range::positive);
+  double gravity_speed = toml.number("gravity_speed_hz", Range::positive);
+  double transition_speed = toml.number("transition_speed_hz", Range::positive);
+  /** The speeds of Fig. 3 [Hz]. */
+  std::vector<double> range = file.speed_range("range_hz");
+  SteadySettings time_integration = read_steady_settings(file);
 
   /** A table of the scene file, which the entries share. */
   StrictToml table(const std::string& key) const { return StrictToml(toml).table(key); }
@@ -59,19 +58,15 @@ struct DeviationScene {
   /** The periodic solution of the exchanged reading with m harmonics. */
   PeriodicMotion solution(double frequency) const
   {
-    return require_periodic(machine, frequency, harmonics);
+    return require_periodic({machine, angular(frequency), harmonics});
   }
 
   int points() const { return time_integration.stepper.intervals_per_period; }  ///< P
 
-  /** One period of a solution, and the periods that an integration shows. */
-  motion::Motion motion_of(const PeriodicMotion& solution) const
+  /** One period of a solution, or the periods that an integration shows. */
+  motion::Motion motion_of(const auto& found) const
   {
-    return motion::motion_of(solution.bodies, points());
-  }
-  motion::Motion motion_of(const SteadyState& steady) const
-  {
-    return motion::motion_of(steady, points());
+    return motion::motion_of(found, points());
   }
 
   /** The steady state of a machine, and the motion on which the exchanged reading
@@ -83,7 +78,7 @@ struct DeviationScene {
   motion::Motion integrated(double frequency) const;
 };
 
-DeviationScene read_deviation_scene(SceneFile& file);
+DeviationScene read_deviation_scene(const SceneFile& file);
 
 inline void add(EvidenceList& list, const EvidenceList& more)
 {

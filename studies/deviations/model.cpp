@@ -1,7 +1,4 @@
-/**
-# Evidence on the model (§2 and Table 1)
-
-Contact, readings, masses. */
+/** # Evidence on the model (§2 and Table 1) */
 #include <cmath>
 #include <numbers>
 
@@ -13,33 +10,6 @@ Contact, readings, masses. */
 
 namespace rotor_stator::deviations {
 
-namespace {
-
-/** The largest sag v [m] of the rotor below the stator, without contact, that both
-   bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r),
-   where the printed force pushes them further apart. */
-double largest_printed_sag(const Parameters& parameters)
-{
-  const double compliance =
-      1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
-  const BallBearing bearing(parameters.bearing);
-  double largest = 0;
-  for (int k = 0; k <= 10000; ++k) {
-    const double v = 2 * parameters.bearing.clearance * k / 10000;
-    largest = std::max(largest, v - compliance * bearing.force({1, 0}, {0, v}).y);
-  }
-  return largest;
-}
-
-double joint_resonance_hz(Parameters machine, double stator_mass, double rotor_mass)
-{
-  machine.stator.mass = stator_mass;
-  machine.rotor.mass = rotor_mass;
-  return joint_resonance(machine) / angular(1);
-}
-
-}  // namespace
-
 EvidenceList sign_of_approach(const DeviationScene& scene)
 {
   const StaticContact contact = static_contact(scene.machine);
@@ -47,7 +17,17 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
     return free_modes(scene.machine, stiffness).real().maxCoeff();
   };
   const double printed = growth(-contact.stiffness);
-  const double sag = std::abs(free_displacement(scene.machine, 0, 0).y);
+  /** The largest sag v [m] of the rotor below the stator, without contact, that both
+      bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s +
+      1/k_r), where the printed force pushes them further apart. */
+  const double compliance =
+      1 / scene.machine.stator.stiffness() + 1 / scene.machine.rotor.stiffness();
+  const BallBearing bearing(scene.machine.bearing);
+  double sag_printed = 0;
+  for (int k = 0; k <= 10000; ++k) {
+    const double v = 2 * scene.machine.bearing.clearance * k / 10000;
+    sag_printed = std::max(sag_printed, v - compliance * bearing.force({1, 0}, {0, v}).y);
+  }
   return {{"D-01.stiffness_ours", contact.stiffness, "N/m",
            "slope of the bearing's force along the static contact, Eq. 4 corrected"},
           {"D-01.stiffness_printed", -contact.stiffness, "N/m",
@@ -60,9 +40,9 @@ EvidenceList sign_of_approach(const DeviationScene& scene)
            "the same with Eq. 4 corrected; negative: it decays"},
           {"D-01.doubling_printed", std::numbers::ln2 / printed, "s",
            "time in which a disturbance doubles, as printed"},
-          {"D-01.sag", sag, "m",
+          {"D-01.sag", std::abs(free_displacement(scene.machine, 0, 0).y), "m",
            "distance by which the rotor sags below the stator without contact"},
-          {"D-01.sag_printed", largest_printed_sag(scene.machine), "m",
+          {"D-01.sag_printed", sag_printed, "m",
            "largest such distance for which the printed sign has an equilibrium"}};
 }
 
@@ -110,16 +90,19 @@ EvidenceList two_readings(const DeviationScene& scene)
 {
   const double speed = scene.table("readings").number("speed_hz", Range::positive);
   const Parameters &ours = scene.machine, &printed = scene.printed;
+  const auto joint_hz = [](Parameters machine, const Parameters& masses) {
+    machine.stator.mass = masses.stator.mass;
+    machine.rotor.mass = masses.rotor.mass;
+    return joint_resonance(machine) / angular(1);
+  };
   EvidenceList list{
-      {"D-09.joint_exchanged", joint_resonance(ours) / angular(1), "Hz",
+      {"D-09.joint_exchanged", joint_hz(ours, ours), "Hz",
        "joint resonance, exchanged frequencies with their working masses"},
-      {"D-09.joint_printed", joint_resonance(printed) / angular(1), "Hz",
+      {"D-09.joint_printed", joint_hz(printed, printed), "Hz",
        "joint resonance, printed frequencies with their working masses"},
-      {"D-09.joint_printed_masses_exchanged",
-       joint_resonance_hz(printed, ours.stator.mass, ours.rotor.mass), "Hz",
+      {"D-09.joint_printed_masses_exchanged", joint_hz(printed, ours), "Hz",
        "joint resonance, printed frequencies with the masses of the exchanged reading"},
-      {"D-09.joint_exchanged_masses_printed",
-       joint_resonance_hz(ours, printed.stator.mass, printed.rotor.mass), "Hz",
+      {"D-09.joint_exchanged_masses_printed", joint_hz(ours, printed), "Hz",
        "joint resonance, exchanged frequencies with the masses of the printed reading"},
       {"D-09.stator_alone_exchanged", ours.stator.natural_frequency / angular(1), "Hz",
        "resonance of the stator alone, exchanged"},
@@ -134,7 +117,7 @@ EvidenceList two_readings(const DeviationScene& scene)
                          scene.motion_of(steady)));
     add(list, spread_of(format("D-09.spread_%s", name), steady));
     const PeriodicMotion peak = require_periodic(
-        *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
+        {*machine, angular(joint_hz(*machine, *machine)), scene.harmonics});
     list.push_back({format("D-09.peak_%s", name),
                     1e3 * half_peak_to_peak(scene.motion_of(peak))[2], "mm",
                     "half peak-to-peak of x_r at the joint resonance"});
@@ -163,8 +146,8 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
            angular(1),
        "Hz", "gravity and unbalance load the rigid joint equally"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
-  int number = 0;
-  for (double factor : scene.table("masses").numbers("factors", Range::positive)) {
+  for (int number = 0;
+       double factor : scene.table("masses").numbers("factors", Range::positive)) {
     list.push_back({format("D-13.factor_%d", ++number), factor, "-", "of both masses"});
     Parameters machine = scene.machine;
     machine.stator.mass *= factor;

@@ -1,7 +1,4 @@
-/**
-# Evidence on the motions (§3.3)
-
-Amplitudes, cage, time integration, figures. */
+/** # Evidence on the motions (§3.3) */
 #include <cmath>
 #include <numbers>
 
@@ -16,15 +13,6 @@ Amplitudes, cage, time integration, figures. */
 #include "time/settle.hpp"
 
 namespace rotor_stator::deviations {
-
-namespace {
-
-double harmonic(const Eigen::MatrixXd& series, int row, int h)
-{
-  return std::hypot(series(row, 2 * h - 1), series(row, 2 * h));
-}
-
-}  // namespace
 
 EvidenceList amplitude_definitions(const DeviationScene& scene)
 {
@@ -45,8 +33,8 @@ EvidenceList amplitude_definitions(const DeviationScene& scene)
                   "largest modulus over half peak-to-peak"},
                  {"D-10.rms" + key, rms / half, "-",
                   "rms about the mean times sqrt 2, over half peak-to-peak"},
-                 {"D-10.first" + key, harmonic(series, row, 1) / half, "-",
-                  "first harmonic over half peak-to-peak"}});
+                 {"D-10.first" + key, std::hypot(series(row, 1), series(row, 2)) / half,
+                  "-", "first harmonic over half peak-to-peak"}});
     }
   }
   return list;
@@ -108,17 +96,17 @@ EvidenceList runge_kutta_settings(const DeviationScene& scene)
 
 EvidenceList speeds_of_panels(const DeviationScene& scene)
 {
-  const auto speeds = scene.table("panels").numbers("speeds_hz", Range::positive);
   EvidenceList list;
-  for (std::size_t k = 0; k < speeds.size(); ++k) {
-    const double frequency = speeds[k];
+  for (int number = 0;
+       double frequency : scene.table("panels").numbers("speeds_hz", Range::positive)) {
     const SteadyState steady = scene.settled(scene.machine, frequency);
     const motion::Motion motion = scene.motion_of(steady);
     const auto higher = [&](const motion::Motion& turn) {
       const Eigen::MatrixXd series = motion::series_of(turn, scene.harmonics);
-      return series.row(2).tail(series.cols() - 3).norm() / harmonic(series, 2, 1);
+      return series.row(2).tail(series.cols() - 3).norm() /
+             std::hypot(series(2, 1), series(2, 2));
     };
-    const std::string key = format("_%zu", k + 1);
+    const std::string key = format("_%d", ++number);
     list.push_back({"D-17.speed" + key, frequency, "Hz", "speed of the panel"});
     add(list, contact_of("D-17.contact" + key, "share of the time with a loaded ball",
                          scene.machine, motion));

@@ -8,9 +8,9 @@ namespace rotor_stator::deviations {
 
 static constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
 
-/** Row i and column j are counted from 1 as in Eq. 13. For the parenthesised argument
-    2m+1 is the number of samples. */
-Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument)
+/** Row i and column j are counted from 1 as in Eq. 13. For the corrected argument 2m+1 is
+    the number of samples. */
+Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Form form)
 {
   Eigen::MatrixXd gamma(2 * harmonics + 1, samples);
   for (int j = 1; j <= samples; ++j) {
@@ -18,7 +18,7 @@ Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument)
     for (int i = 2; i <= 2 * harmonics + 1; ++i) {
       const double turns = (j - 1) * (i - i % 2) * std::numbers::pi;
       const double angle =
-          argument == Argument::printed ? turns / (2 * harmonics) + 1 : turns / samples;
+          form == Form::printed ? turns / (2 * harmonics) + 1 : turns / samples;
       gamma(i - 1, j - 1) =
           2.0 / samples * (i % 2 == 0 ? std::cos(angle) : std::sin(angle));
     }
@@ -28,34 +28,14 @@ Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument)
 
 Eigen::MatrixXd gamma_inverse(int harmonics, int samples)
 {
-  Eigen::MatrixXd inverse =
-      0.5 * samples *
-      gamma_matrix(harmonics, samples, Argument::parenthesised).transpose();
+  Eigen::MatrixXd inverse = 0.5 * samples * gamma_matrix(harmonics, samples).transpose();
   inverse.col(0).setOnes();
   return inverse;
 }
 
-PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four)
-{
-  std::vector<double> s{0};
-  for (int i = 0; i < 3; ++i)
-    s.push_back(s.back() + std::hypot((last_four[i + 1].x - last_four[i].x).norm(),
-                                      last_four[i + 1].omega - last_four[i].omega));
-  PeriodicMotion next{.x = Eigen::VectorXd::Zero(last_four[0].x.size())};
-  for (int i = 0; i <= 3; ++i) {
-    double weight = 1;
-    for (int j = 0; j <= 3; ++j)
-      if (i != j) weight *= (s[3] - s[j]) / (s[i] - s[j]);
-    next.x += weight * last_four[i].x;
-    next.omega += weight * last_four[i].omega;
-  }
-  return next;
-}
-
 PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmonics,
-                           int samples, FirstEntry first)
-    : bearing_(parameters.bearing),
-      gamma_(gamma_matrix(harmonics, samples, Argument::parenthesised)),
+                           int samples, Form block)
+    : bearing_(parameters.bearing), gamma_(gamma_matrix(harmonics, samples)),
       inverse_(gamma_inverse(harmonics, samples))
 {
   for (int k = 0; k < samples; ++k)
@@ -74,7 +54,7 @@ PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmo
   for (int j = 1; j <= harmonics; ++j) {
     const int cosine = (2 * j - 1) * dofs, sine = cosine + dofs;
     const double frequency = j * omega;
-    const double printed = first == FirstEntry::printed ? omega : frequency;
+    const double printed = block == Form::printed ? omega : frequency;
     linear_.block<dofs, dofs>(cosine, cosine) = stiffness - printed * printed * mass;
     linear_.block<dofs, dofs>(cosine, sine) = frequency * damping;
     linear_.block<dofs, dofs>(sine, cosine) = -frequency * damping;
@@ -109,16 +89,10 @@ PlainBalance::Linearised PlainBalance::at(const Eigen::VectorXd& x) const
   return {linear_ * x + force_series.reshaped() - load_, jacobian};
 }
 
-Eigen::VectorXd PlainBalance::corrected_step(const Eigen::VectorXd& x) const
+Eigen::VectorXd PlainBalance::step(const Eigen::VectorXd& x, Form form) const
 {
-  const auto [residual, jacobian] = at(x);
-  return -jacobian.partialPivLu().solve(residual);
-}
-
-Eigen::VectorXd PlainBalance::printed_step(const Eigen::VectorXd& x) const
-{
-  const auto [residual, jacobian] = at(x);
-  const Eigen::VectorXd right = residual - linear_ * x + jacobian * x;
+  auto [right, jacobian] = at(x);
+  if (form == Form::printed) right = right - linear_ * x + jacobian * x;
   return -jacobian.partialPivLu().solve(right);
 }
 

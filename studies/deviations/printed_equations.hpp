@@ -9,40 +9,26 @@ has its corrected one beside it. */
 #include <Eigen/Core>
 #include <vector>
 
-#include "balance/periodic_motion.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::deviations {
 
-/** How the arguments of Eq. 13 are read (D-21). */
-enum class Argument {
-  parenthesised,  ///< (j-1)iπ/(2m+1)
-  printed         ///< (j-1)iπ/2m + 1
-};
+enum class Form { corrected, printed };
 
 /** Γ of Eq. 13 for N samples, (2m+1) × N: samples to coefficients (D-04). The paper has N
-    = 2m+1 (D-05). */
-Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument);
+    = 2m+1 (D-05), and as arguments (j-1)iπ/2m + 1 instead of (j-1)iπ/(2m+1) (D-21). */
+Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Form form = Form::corrected);
 
 /** Γ⁻¹ for N samples, N × (2m+1): coefficients to samples. */
 Eigen::MatrixXd gamma_inverse(int harmonics, int samples);
 
-/** Eq. 20 as printed, read at S_3 (D-02), from the four last solutions, oldest first.
-   Distances by Eq. 19 as printed, without scales (D-03). */
-PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four);
-
-/** The first diagonal entry of the blocks of Eq. 11 (D-12). */
-enum class FirstEntry {
-  corrected,  ///< K - (jω)²M
-  printed     ///< K - ω²M
-};
-
 /** Eqs 8 to 16 at one speed in x_s, y_s, x_r, y_r: 4(2m+1) unknowns, one block of four
-   values per coefficient. */
+   values per coefficient. The first diagonal entry of the blocks of Eq. 11 is K - (jω)²M,
+   as printed K - ω²M (D-12). */
 class PlainBalance {
 public:
   PlainBalance(const Parameters& parameters, double omega, int harmonics, int samples,
-               FirstEntry first = FirstEntry::corrected);
+               Form block = Form::corrected);
 
   /** At X [m]: R = AX + F_NL - F [N] of Eq. 16, and A + J [N/m]. */
   struct Linearised {
@@ -52,10 +38,8 @@ public:
   Linearised at(const Eigen::VectorXd& x) const;
   Eigen::VectorXd residual(const Eigen::VectorXd& x) const { return at(x).residual; }
 
-  /** ΔX [m] from X: Eq. 15 as printed, at Δω = 0, and as it follows from Eq. 10 (D-06).
-   */
-  Eigen::VectorXd printed_step(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd corrected_step(const Eigen::VectorXd& x) const;
+  /** ΔX [m] from X: as it follows from Eq. 10, or Eq. 15 as printed, at Δω = 0 (D-06). */
+  Eigen::VectorXd step(const Eigen::VectorXd& x, Form form = Form::corrected) const;
 
   const Eigen::VectorXd& load() const { return load_; }  ///< F [N]
 

@@ -118,7 +118,7 @@ class Page(unittest.TestCase):
 
     def test_values(self):
         """The printed sign is a negative stiffness that grows, without damping and suspension by l^2 = -k (1/m_s + 1/m_r), and has
-        no rest; the printed predictor stays where it is; gamma as printed inverts nothing; 13 samples have folds that 64 do not have;
+        no rest; the printed predictor stays where it is; 13 samples have folds that 64 do not have;
         the plain equations have the solution of the condensed ones, their printed steps and block another one; Eq. 2 gives 1.5e10 for
         steel on a ball of 1 cm, and needs one of 42 cm."""
         table = Table.of(evidence())
@@ -131,7 +131,6 @@ class Page(unittest.TestCase):
         self.assertEqual(value["D-02.moved_printed"], 0)
         self.assertLess(value["D-02.error_ours"], 0.2 * value["D-02.error_printed"])
         self.assertGreater(value["D-04.error_text"], 0.5)
-        self.assertTrue(value["D-21.ours"] < 1e-13 and value["D-21.printed"] > 0.1)
         self.assertEqual((value["D-05.folds_m6_N13"], value["D-05.folds_m6_N64"]), (10, 0))  # confirmed in continuation.cpp
         self.assertTrue(value["D-06.ours_6"] < 1e-6 and value["D-06.distance_ours"] < 1e-8 and value["D-06.distance_printed"] > 1e-3)
         self.assertGreater(value["D-12.printed_16Hz"], 2 * value["D-12.ours_16Hz"])  # distances to time integration
