@@ -13,7 +13,7 @@ from scipy.io import mmread
 from tests.machines import entries, written
 from tests.truth.independent import displacements, errors, model_of
 from tests.unit.shaft import two_disks
-from tests.support.explore import AMPLITUDES, CASES, MACHINE, SETS, Case, changed, some, with_table
+from tests.support.explore import AMPLITUDES, CASES, MACHINE, SETS, Case, Table, changed, some, with_table
 
 
 FREE = {"natural_frequency_Hz": 0}
@@ -436,7 +436,7 @@ class Uncertainties(Case):
         def at(speed, *, balls, stiffness, clearance, cage, stator=None, gravity=0, **rotor):
             own = self.made(rotor, {"balls": balls, "contact_stiffness_N_per_m1p5": stiffness, "radial_clearance_m": clearance,
                                     "cage_speed_ratio": cage}, stator, gravity)
-            return self.table("orbit", own, "--frequency", speed, "--points", 4)
+            return Table.of(self.run_explore("orbit", own, "--frequency", speed, "--points", 4).stdout)
         slow = at(112.14, balls=8, stiffness=1.6e10, clearance=1.97e-5, cage=3 / 8, mass_kg=15.2, damping_N_s_per_m=1740, unbalance_kg_m=2.85e-4,
                   stator={"mass_kg": 9.5, "natural_frequency_Hz": 102, "damping_ratio": 0.198}, **FREE)
         self.assertAlmostEqual(slow.value("lyapunov"), -1.9, delta=0.3)

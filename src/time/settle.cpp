@@ -436,6 +436,7 @@ void Settling::lost(std::exception_ptr why)
   }
   settled_ = seen();
   settled_.kind = Kind::undecided;
+  settled_.period = 0;
   settled_.evaluations = spent_beside_ + pair_.evaluations();
   try {
     std::rethrow_exception(why);

@@ -158,6 +158,8 @@ class Branch(Case):
         for kept in (part[:-13], holed):
             rest = self.rows(*thirds, "--resume", self.file("part.tsv", "\n".join(kept) + "\n"))
             self.assertEqual(rest, [row for row in whole if row[0] != "#"])
+        with open(self.folder / "part.tsv", "a", encoding="utf-8") as rows:
+            self.refused("is where the rows go", *thirds, "--resume", "part.tsv", stdout=rows)
         self.refused("needs f as the first", *thirds, "--columns", "amp_x_r,f", "--resume", "part.tsv")
         self.refused("leave out --plot", *thirds, "--columns", "f,amp_x_r", "--resume", "part.tsv", "--plot", "a.svg")
         damped = self.file("damped.toml", MACHINE.replace("cage_speed_ratio", "contact_damping_s_per_m = 5.0\ncage_speed_ratio"))
