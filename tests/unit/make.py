@@ -24,9 +24,9 @@ class Make(unittest.TestCase):
         for folder in ("data/scenes", "data/bearings"):
             shutil.copytree(folder, self.folder / folder)
 
-    def make(self, *goals, **environment):
+    def make(self, *goals, where=None, **environment):
         own = {name: value for name, value in os.environ.items() if "MAKE" not in name}
-        return subprocess.run(["make", *goals], cwd=self.folder, capture_output=True,
+        return subprocess.run(["make", *goals], cwd=where or self.folder, capture_output=True,
                               text=True, env={**own, **environment}, check=False)
 
     def test_a_folder_that_a_shell_would_run(self):
@@ -76,3 +76,13 @@ class Make(unittest.TestCase):
         header = (self.folder / "out.hpp").read_text(encoding="utf-8")
         found = re.findall('rotor_stator 1.2 [^"]*', header)
         self.assertEqual(found, ["rotor_stator 1.2 unknown"])
+
+    def test_the_live_page_has_what_its_sources_use(self):
+        """Of std::ranges: the browser's library has the names in live/libcxx.hpp alone, and few machines compile for it."""
+        sources = self.make("-s", "--eval", "sources: ; @echo $(live_sources)", "sources", where=".").stdout.split()
+        self.assertGreater(len(sources), 50)
+        text = "".join(file.read_text(encoding="utf-8") for source in map(Path, sources)
+                       for file in (source, source.with_suffix(".hpp")) if file.exists())
+        given = Path("live/libcxx.hpp").read_text(encoding="utf-8")
+        has = set(re.findall(r"(?:WITH_\w+\(|auto |void )(\w+)", given)) | {"greater"}  # which the library has
+        self.assertEqual(set(re.findall(r"std::ranges::(\w+)", text)) - has, set())
