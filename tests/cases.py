@@ -6,6 +6,7 @@ apart from this project; where a motion is compared instant by instant, from the
 (truth/judge.cpp), which shares no code with src.
 """
 import math
+from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
@@ -471,6 +472,12 @@ class Uncertainties(Case):
             found = self.table("orbit", self.made(rotor, {"designation": name}, gravity=0), "--frequency", speed, "--points", 4)
             self.assertEqual(found.value("regime"), regime)
             self.assertLess(found.value("error_largest", 0), 0.01)
+
+    def test_chaos_of_a_slow_rotor_is_seen_at_the_first_look(self):
+        """At 1 Hz that takes 32 s, more than half of the longest time; shorter steps took the budget, and there was no row."""
+        table = Table.of(self.run_explore("response", Path("data/set1-as-printed.toml").resolve(), "--from", 1, "--to", 1).stdout)
+        self.assertEqual(list(table["period"]), [0])
+        self.assertLess(table.value("evaluations"), 1e8)
 
     def test_starts_on_one_chaotic_motion_are_one_attractor(self):
         """Its means and scatters over 256 base periods differ by more than a tenth."""

@@ -213,8 +213,9 @@ bool Settling::is_subtle() const
 {
   const bool is_locked = settled_.kind == Kind::undecided && settled_.contracts &&
                          !base_.is_driven_twice() && is_over();
-  return is_locked ||
-         (settled_.kind == Kind::chaotic && pair_.seconds() > rule_.longest / 2);
+  const double late =
+      std::max(rule_.longest / 2, 3 * least_);  // the first look: 2 least_
+  return is_locked || (settled_.kind == Kind::chaotic && pair_.seconds() > late);
 }
 
 /** Follows the motion over so many base periods with its steps and with steps a quarter
