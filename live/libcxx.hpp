@@ -111,6 +111,18 @@ void copy(Range&& range, Output output)
   std::copy(begin(range), end(range), output);
 }
 
+template <class Range, class Output, class Change>
+void transform(Range&& range, Output output, Change change)
+{
+  std::transform(begin(range), end(range), output, change);
+}
+
+template <class Range, class Other>
+auto mismatch(const Range& range, const Other& other)
+{
+  return std::mismatch(begin(range), end(range), begin(other), end(other));
+}
+
 template <class Range, class Output>
 void move(Range&& range, Output output)
 {

@@ -153,7 +153,7 @@ Eigen::VectorXd samples_of(const Record& record, const Measure& one)
     x.setConstant(one.of == Of::stress ? 1e-6 * pressure * std::cbrt(load) : load);
   } else {
     const auto forces = motion::bearing_forces(machine, motion, one.place);
-    std::transform(forces.begin(), forces.end(), x.begin(), [&](Vec2 f) {
+    std::ranges::transform(forces, x.begin(), [&](Vec2 f) {
       return one.of == Of::force_x   ? f.x
              : one.of == Of::force_y ? f.y
                                      : std::hypot(f.x, f.y);

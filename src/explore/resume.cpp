@@ -29,8 +29,7 @@ try {
     const std::string writer = writer_of_other_schema(file);
     if (!writer.empty())
       throw BadInput("was written by " + writer + ", start this " + what + " anew");
-    const auto [here, there] =
-        std::mismatch(beginning.begin(), beginning.end(), found.begin(), found.end());
+    const auto [here, there] = std::ranges::mismatch(beginning, found);
     const auto line_of = [](const std::string& text, std::string::const_iterator at) {
       const auto first = std::find(std::make_reverse_iterator(at), text.rend(), '\n');
       return std::string(first.base(), std::find(at, text.end(), '\n'));
