@@ -122,7 +122,7 @@ include paper/paper.mk live/live.mk peers/peers.mk tests/tests.mk
 # Long studies, computed anew and compared with the tables kept in data/reference.
 studies: $(studies) $(costs) timing  ## the long studies, the maps and all timings (two and a half hours)
 maps: $(call figure,clearance_speed stiffness_border)  ## two maps that nobody has published, drawn from their kept tables
-truth: attractors validity stability verdicts adaptive  ## where the periodic solution is true (15 minutes)
+truth: attractors validity stability verdicts adaptive  ## where the periodic solution is true (20 minutes)
 timing: $(timings) $(call table,$(costs))  ## the tables of cost, alone on the machine (10 minutes)
 $(studies) $(costs): $$(subst reference,generated,$$(wildcard data/reference/$$@.tsv data/reference/as-printed/$$@.tsv))
 	$(PYTHON) tests/compare_kept.py $^

@@ -95,7 +95,7 @@ do for [s = 1 : F_max_x] {
   plot \
     table using (point(s, up)):(column("amp_x_s") / column("amp_x_r")) with lines ls relative \
       title s == 1 ? "harmonic balance" : "", \
-    table using (point(s, integrated)):(column("amp_x_s") / column("amp_x_r")) with points pt 6 ps 0.4 lc rgb '#404040' \
-      title s == 1 ? "time integration" : ""
+    for [p = 0 : 1] table using (marker(s, p)):(column("amp_x_s") / column("amp_x_r")) with points pt 6 + p ps 0.45 - 0.15 * p \
+      lc rgb '#404040' title s == 1 && p ? "time integration" : ""
 }
 unset multiplot

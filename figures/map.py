@@ -16,7 +16,8 @@ VERDICTS, REGIMES = ["stable", "unstable", "undecided"], ["rest", "periodic", "q
 CLASSES = {"stability": VERDICTS, "series_stability": VERDICTS, "regime": REGIMES}
 PERIODS = {-2: "undecided", -1: "quasi-periodic", 0: "chaotic"}
 COLOURS = {"undecided": "#d0d0d0", "quasi-periodic": "C3", "chaotic": "#404040", "period 1": "C0", "periodic": "C0", "period 2": "C1",
-           "period 3": "C2", "period 4": "C4", "rest": "C6", "stable": "C0", "unstable": "C1"}
+           "period 3": "C2", "period 4": "C4", "rest": "#8c6bb1", "stable": "C0", "unstable": "C1"}
+MORE = ["C5", "#a6761d", "#1b9e77", "#e7298a", "#66a61e", "#e6ab02", "#5e4fa2", "#d53e4f", "#3288bd", "#abdda4", "#fdae61", "#9e0142"]  # in their order
 UNITS = {"rad_per_s": "rad/s", "N_per_m1p5": "N/m$^{1.5}$", "N_per_mn": "N/m$^n$", "N_per_m3": "N/m³", "N_per_mm": "N/mm", "kN_per_m": "kN/m", "N_per_m": "N/m",
          "N_s_per_m": "N s/m", "m_per_s2": "m/s²", "s_per_m": "s/m", "kg_m": "kg m", "g_mm": "g mm", "um": "µm", "mm": "mm", "m": "m", "kg": "kg",
          "g": "g", "Hz": "Hz", "rpm": "rpm", "rad": "rad", "deg": "°", "N": "N", "kN": "kN", "Pa": "Pa", "MPa": "MPa", "GPa": "GPa"}
@@ -82,7 +83,8 @@ def draw_grid(axes, x, y, cells, **colours):
 
 def draw_classes(axes, x, y, cells, names, colours):
     """Numbers of classes in colours; beside them the names."""
-    bar = draw_grid(axes, x, y, cells, cmap=ListedColormap(colours), norm=BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names)))
+    count = max(1, len(names))  # none where no point has a result
+    bar = draw_grid(axes, x, y, cells, cmap=ListedColormap(colours or ["white"]), norm=BoundaryNorm(np.arange(count + 1) - 0.5, count))
     bar.set_ticks(range(len(names)), labels=names)
 
 
@@ -98,7 +100,8 @@ def draw_about_zero(axes, x, y, cells):
 def draw_cells(axes, x, y, cells, names):
     """Colours over two keys; beside them the scale, or the names of the classes."""
     if names is not None:
-        draw_classes(axes, x, y, cells, names, [COLOURS.get(name, f"C{5 + k % 5}") for k, name in enumerate(names)])
+        others = iter(MORE)
+        draw_classes(axes, x, y, cells, names, [COLOURS.get(name) or next(others) for name in names])
         return
     known = cells[np.isfinite(cells)]
     is_constant = known.size > 0 and np.ptp(known) < 1e-9 * abs(known).max()

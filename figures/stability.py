@@ -15,7 +15,7 @@ from tables import read, run
 
 KINDS = {"fold": "folds of m harmonics", "period-doubling": "period doublings", "neimark-sacker": "Neimark-Sacker",
          "plus-one": "multiplier +1"}
-STATES = {"no motion of Eq. 7 found": ((-2, -1), {"color": "#555555", "lw": 0.6, "zorder": 2}),
+STATES = {"not known": ((-2, -1), {"color": "#555555", "lw": 0.6, "zorder": 2}),
           "stable": ((1,), {"color": "C0", "lw": 3, "zorder": 3, "solid_capstyle": "butt"}),
           "unstable": ((0,), {"color": "C1", "lw": 3, "zorder": 4, "solid_capstyle": "butt"})}
 REPEATS = {"color": "#9CCBE8", "marker": "o", "ms": 5, "ls": "", "zorder": 1}
@@ -25,7 +25,7 @@ OTHER = {"color": "#BBBBBB", "marker": "o", "ms": 4, "ls": "", "zorder": 0}
 def stretches(curve, states):
     """The amplitude where the curve has one of these states, begun at the point before; NaN elsewhere."""
     within = np.isin(curve["stable"], states)
-    within[:-1] |= within[1:] & (states != STATES["no motion of Eq. 7 found"][0])
+    within[:-1] |= within[1:] & (states != STATES["not known"][0])
     return np.where(within, 1e3 * curve["amp_x_r"], np.nan)
 
 

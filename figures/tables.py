@@ -59,7 +59,7 @@ class Table:
         names, *cells = csv.reader(rows, delimiter=between, quoting=csv.QUOTE_NONE if between == "\t" else csv.QUOTE_MINIMAL)
         if between == ";":
             cells = [[cell.replace(",", ".") for cell in row] for row in cells]
-        self.columns = {name: numbers_or_words(column) for name, column in zip(names, np.array(cells).T)}
+        self.columns = {name: numbers_or_words(column) for name, column in zip(names, np.array(cells).reshape(len(cells), len(names)).T)}
 
     def keys(self):
         """All keys with their values, numbers or words."""
@@ -250,7 +250,7 @@ def run(draw):
     warnings.filterwarnings("ignore", "Glyph .* missing")  # a title may be in any language
     try:
         tables = [read(path) for path in (sys.argv[1], *sys.argv[3:])]
-    except (OSError, IndexError, UnicodeDecodeError) as error:
+    except (OSError, IndexError, ValueError) as error:
         sys.exit(f"{sys.argv[1]}: is no table: {error}")
     figure = draw(*tables)
     suffix = Path(sys.argv[2]).suffix[1:]

@@ -144,10 +144,10 @@ function buildControls() {
 }
 
 function showSpeed() {
-  for (const id of ["f", "m"])
-    for (const input of [$(id), $(`${id}-slide`)]) if (document.activeElement !== input) input.value = state[id];
   $("f-slide").min = $("from").value = state.from;
   $("f-slide").max = $("to").value = state.to;
+  for (const id of ["f", "m"])
+    for (const input of [$(id), $(`${id}-slide`)]) if (document.activeElement !== input) input.value = state[id];
   drawSpeed();
 }
 
@@ -155,7 +155,7 @@ function takeNumber(id, value) {
   const number = Number(value), [low, high] = LIMITS[id];
   const good = value !== "" && number >= low && number <= high && (id !== "m" || Number.isInteger(number));
   markRow($(id).parentElement, good ? "" : `must be ${id === "m" ? "a whole number " : ""}in ${low}…${high}`);
-  if (!good) return begin(false), showNothing({ status: 2 });
+  if (!good) return begin(false), $("cancel").hidden = true, showNothing({ status: 2 });
   state[id] = number;
   showSpeed();
   update({ machine: id === "m" });

@@ -36,7 +36,7 @@ def written(value, style):
     if isinstance(value, str):
         return value
     if value == 0:
-        return "0"
+        return "0 %" if style.endswith("%") else "0"
     return re.sub(r"e([+-])0*(\d)", lambda m: f"e{'-' if m[1] == '-' else ''}{m[2]}",
                   format(value, style)).replace("%", " %")
 

@@ -5,7 +5,7 @@ Usage: /usr/bin/python3 paper/manual.py > manual.md   (from the project's root)
 import re
 import subprocess
 
-# A short run of each command, whose header names the columns; None: what it prints is no table of columns.
+# A short run of each command, whose header names the columns.
 MACHINE, ROTOR = "data/set1.toml", "data/rotors/overhung.toml"
 RUNS = {"check": [MACHINE], "orbit": [MACHINE, "--frequency", "45", "--points", "4"],
         "contact": [MACHINE, "--frequency", "45", "--points", "4", "--columns", "all"],

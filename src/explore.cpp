@@ -102,6 +102,7 @@ int main(int argc, char** argv)
 {
   CLI::App app("Explores a rotor and a stator in a ball bearing; a table on stdout.");
   app.require_subcommand(1);
+  app.option_defaults()->disable_flag_override();  // no --quiet=7
   add(app, "check", explore_check, "", "what a machine is, before anything is computed");
   add(app, "orbit", explore_orbit, "orbit.py", "displacements and force over one period");
   add(app, "contact", explore_contact, "contact.py",

@@ -106,8 +106,8 @@ void add_curve(Table& table, const DataSet& set, Curve curve,
                        .segment = segment,
                        .frequency = solution.omega / angular(1),
                        .amplitude = {a[0], a[1], a[2], a[3]},
-                       .contact = motion::contact_share(
-                           set.machine, motion::motion_of(solution.bodies, 256)),
+                       .contact = motion::contact_share(set.machine,
+                                                        motion::motion_of(solution, 256)),
                        .newton = solution.newton.iterations});
   }
   table.gap();

@@ -7,8 +7,8 @@ Run: `build/regimes > data/generated/regimes.tsv`
 What the paper says about ranges of speed becomes numbers here, for both data sets: the
 share of time in contact, how much of the orbit lies in the second and higher harmonics,
 how often a ball is loaded in two turns, and the largest force on a ball. Most claims are
-judged by this table. At each speed the motion is integrated until it settles; contact is
-judged over a second, the rest over two turns. */
+judged by this table. At each speed the motion is integrated until it settles; one that
+repeats itself is judged over two turns, another one by means over many. */
 #include "motion/regime.hpp"
 
 #include "io/program.hpp"
@@ -76,7 +76,7 @@ int main(int argc, char** argv)
         .longest = toml.number("longest_s", Range::positive),
         .window = toml.number("window_s", Range::positive),
         .average = toml.number("average_s", Range::positive),
-        .points_per_period = toml.integer("points_per_period", 4, 4096)};
+        .points_per_period = toml.integer("points_per_period", 16, 4096)};
     file.toml().refuse_unknown_keys();
     Table table("Regimes of the motion", fields);
     for (const Parameters& machine : machines) describe(table, machine, false);

@@ -11,10 +11,10 @@ The attractors of each speed are those of `explore attractors`, and the T-period
 solution come to where they are stable. The solution with m harmonics is the one that `explore orbit` finds, begun at each speed anew; where several
 solutions exist, another one may be nearer to an attractor.
 
-Only speeds with a T-periodic attractor count; the titles give their number. The first figure keeps the worst speed: the error
-against the number of harmonics, of displacement and of force. It falls in steps, at 8 and at 16 harmonics: 8 balls pass a fixed
-direction in a turn, so that the bearing excites harmonics 8, 16, and so on, which fewer harmonics cannot follow. The bars below
-count the speeds without any solution.
+Only speeds with a T-periodic attractor count; the titles give their number. The first figure shows the largest and the
+median error against the number of harmonics, of displacement and of force. It falls in steps, at 8 and at 16 harmonics: 8 balls
+pass a fixed direction in a turn, so that the bearing excites harmonics 8, 16, and so on, which fewer harmonics cannot follow. A
+number beside a point counts speeds without a solution.
 
 The second figure shows the same against speed; grey marks speeds at which no attractor has the period of rotation, where a
 periodic solution can be exact but unstable, and the machine does not follow it. There more harmonics do not help: only the

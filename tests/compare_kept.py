@@ -30,7 +30,8 @@ COLUMNS = {"validity": ["found", "distance", "periodic"],
 # holds, from the least that is decided on.
 KINDS = {"attractors": (["set", "f"], "period", -1), "stability": (["curve", "f"], "stable", 0)}
 # The column of the kinds whose CPU times are shown.
-TIMED = {"tab02_equal_error": "method", "work_precision": "method", "cost_growth": "harmonics"}
+TIMED = {"tab02_equal_error": "method", "work_precision": "method", "cost_growth": "harmonics",
+         "tab03_answers": "method"}
 
 
 def words_at(table, keys, column, least):

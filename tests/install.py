@@ -58,7 +58,7 @@ def main(build):
         if "</svg>" not in Path(folder, "figure.svg").read_text(encoding="utf-8"):
             sys.exit("the installed explore draws no figure")
         script = ("import sys, rotor_stator as r; t = r.run('orbit', sys.argv[1], frequency=45, harmonics=6, plot=True); "
-                  "print(r.explore(), r.__file__, len(t['x_r']), t.value('stability'), '</svg>' in t.svg, sep='\\n')")
+                  "print(*r.explore(), r.__file__, len(t['x_r']), t.value('stability'), '</svg>' in t.svg, sep='\\n')")
         modules = prefix / "lib/python3/dist-packages"
         program, module, *ends = run(sys.executable, "-c", script, machine, cwd=outside, env={"PYTHONPATH": str(modules)}).split("\n")
         if ends != ["256", "stable", "True", ""] or (program + module).count(str(prefix)) != 2:

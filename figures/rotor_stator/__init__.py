@@ -10,6 +10,7 @@ lib/python3/dist-packages.
 """
 import base64
 import os
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -31,13 +32,15 @@ class NoAnswer(RuntimeError):
 
 
 def explore():
-    """The program: EXPLORE of the environment, that of the clone, of the installation, or
-    of the PATH."""
-    here = Path(__file__).resolve()
-    for file in (os.environ.get("EXPLORE"), here.parents[2] / "build/explore",
-                 here.parents[4] / "bin/explore", shutil.which("explore")):
+    """The words that run it: EXPLORE of the environment ("apptainer exec rotor.sif
+    explore" has four), the program of the clone, of the installation, or of the PATH."""
+    here, given = Path(__file__).resolve(), os.environ.get("EXPLORE")
+    for file in (given, here.parents[2] / "build/explore", here.parents[4] / "bin/explore",
+                 shutil.which("explore")):
         if file and Path(file).is_file():
-            return str(file)
+            return [str(file)]
+        if file and file == given:
+            return shlex.split(given)
     raise FileNotFoundError("explore: not built, not installed; EXPLORE names it")
 
 
@@ -68,7 +71,7 @@ def run(command, *words, plot=None, **options):
     What is refused raises ValueError with explore's line, what has no answer NoAnswer."""
     with tempfile.TemporaryDirectory() as folder:
         figure = Path(folder, "figure.svg") if plot is True else plot
-        asked = [explore(), command, *words, *words_of({**options, "plot": figure})]
+        asked = [*explore(), command, *words, *words_of({**options, "plot": figure})]
         ran = subprocess.run([str(word) for word in asked], stdin=subprocess.DEVNULL,
                              capture_output=True, encoding="utf-8", check=False)
         has_rows = any(line and line[0] != "#" for line in ran.stdout.splitlines())

@@ -24,7 +24,8 @@ $$\delta_2 = \|\Delta X\|. \tag{18}$$
 
 The iteration has converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance: Newton's convergence
 is quadratic, so a last step of √tolerance leaves an error of the order of the tolerance.
-*/
+After a step that was not solved directly, δ₁ or what its contraction leaves of δ₂ must be
+a tenth of the tolerance besides. */
 #pragma once
 
 #include "balance/linear_solver.hpp"

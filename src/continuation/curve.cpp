@@ -42,7 +42,7 @@ static constexpr double sizes_in_a_step = 20;
 
 ShootingCurve::ShootingCurve(const Parameters& parameters, const OperationBudget& budget)
     : Curve({.newton = {.tolerance = 1e-9},
-             .speed_scale = joint_resonance(parameters),
+             .speed_scale = speed_scale(parameters),
              .arc_unknown_scale = sizes_in_a_step,
              .most_step = 0.2,
              .most_evaluations = std::numeric_limits<long>::max()}),

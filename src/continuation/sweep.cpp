@@ -142,7 +142,7 @@ ArcLengthSettings arc_length_settings(const Parameters& parameters,
     length +=
         10 * parameters.unbalance / (parameters.stator.mass + parameters.rotor.mass);
   return {.newton = newton,
-          .speed_scale = joint_resonance(parameters),
+          .speed_scale = speed_scale(parameters),
           .arc_unknown_scale = length};
 }
 

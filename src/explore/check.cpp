@@ -180,7 +180,8 @@ Exploration explore_check(const CheckRequest& request)
     table.note(
         "modes at rest; those of a turning rotor, and where the balls meet them: "
         "campbell --critical");
-  if (machine.bearing.damping > 0)
+  const auto is_damped = [](const Bearing& one) { return one.damping > 0; };
+  if (std::ranges::any_of(bearings_of(machine), is_damped))
     table.note("damping of the contact is not in the modes");
   if (!machine.grounds.empty())
     table.note("f_s, f_r, contact_loss: of machines without elements to the ground");

@@ -173,7 +173,10 @@ Parameters MapTask::read(const std::vector<std::pair<std::string, double>>& chan
 {
   ModelRange range{.harmonics = std::max(64, harmonics)};
   if (frequency > 0) range.from = range.to = frequency;
-  if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
+  if (!sweep.empty()) {
+    range.from = frequency > 0 ? std::min(frequency, sweep.front()) : sweep.front();
+    range.to = std::max(frequency, sweep.back());
+  }
   return read_machine(file.with(changes, excludes), range);
 }
 

@@ -389,6 +389,10 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
                         ? "a map has none where two frequencies drive; response has "
                           "amplitudes over speeds"
                         : "give --harmonics M"));
+  const auto is_from_rest = [](const Quantity& q) { return q.source == Source::rest; };
+  if (request.method == "aft" && std::ranges::all_of(chosen, is_from_rest))
+    throw BadInput("--harmonics, --method aft: " + here +
+                   " is of the motion from rest; leave them out");
   require_method_of(machine, request.method);
   for (const Quantity& one : chosen)
     if (one.of_two_masses)

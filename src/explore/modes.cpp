@@ -38,6 +38,8 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
       contact_(mean_contact_stiffness(parameters, machine_, angular(speed)))
 {
   const auto n = machine_.mass.rows() - first_;
+  const auto rows = static_cast<double>(n);
+  budget_.spend((1e6 + 10 * rows * rows * rows) / evaluation_);
   const Eigen::MatrixXd& d = machine_.joints;
   const Eigen::MatrixXd even = (contact_ + contact_.transpose()) / 2;
   k_ = (machine_.stiffness + d * even * d.transpose()).bottomRightCorner(n, n);

@@ -132,7 +132,8 @@ void add_common_options(CLI::App& command, Request& request, const std::string& 
 {
   add_table_options(command, request);
   command.add_flag("--quiet", request.quiet,
-                   "no progress on stderr, which a terminal gets after two seconds");
+                   "no warnings on stderr, and no progress, which a terminal gets after "
+                   "two seconds");
   add_output(command, request, "--plot", request.plot, "figure: .svg, .png or .pdf");
   command.add_flag("--force", request.force,
                    "replace files that this program did not write, too");

@@ -371,7 +371,6 @@ Exploration explore_orbit(const MotionRequest& request)
 Exploration explore_contact(const MotionRequest& request)
 {
   const Parameters parameters = machine_of(request, request.frequency, request.frequency);
-  const Bearing& bearing = parameters.bearing;
   std::vector<Column> columns{
       {"t_over_T", "-", "time over the period, 0 to 2"},
       {"ball", "-", "j of Eq. 3"},
@@ -386,10 +385,12 @@ Exploration explore_contact(const MotionRequest& request)
     columns.insert(columns.begin() + 1, {"bearing", "-", "in the order of the file"});
   Table table("Contact of every ball over two periods", std::move(columns));
   table.choose(request.columns, bearings > 1 ? 4 : 3, request.plot.has_value());
-  const int most_points = most_rows / (2 * bearing.balls);
+  int balls = 0;
+  for (const Bearing& one : bearings_of(parameters)) balls += one.balls;
+  const int most_points = most_rows / (2 * balls);
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
-                          most_points, bearing.balls));
+                          most_points, balls));
   MotionRequest two = request;
   two.periods = 2;
   const FoundMotion at = computed(parameters, two, table);

@@ -17,11 +17,12 @@ double pitch_diameter(const Bearing& bearing)
   return bearing.radius_ratio > 0 ? bearing.ball_diameter / bearing.radius_ratio : 0;
 }
 
+constexpr double fastest_hertz = 1000;
+
 /** About the speed; empty where bearings turn so fast. */
 std::string doubt_of_speed(const Parameters& machine, double highest)
 {
   constexpr double fastest = 1.3e6;  // n d_m of deep groove ball bearings [mm/min]
-  constexpr double fastest_hertz = 1000;
   bool is_known = true;
   for (const Bearing& bearing : bearings_of(machine)) {
     const double n = speed_value(bearing, highest);
@@ -69,10 +70,12 @@ void add_stiffness(Doubts& all, const Bearing& bearing)
 
 void add_bearing(Doubts& all, const Bearing& bearing)
 {
-  constexpr double widest = 5, deepest_spall = 1e-3, widest_gap = 3e-3;  // [m]
-  constexpr double most_preload = 6e-5;  // of balls of unknown size [m]
-  constexpr double most_damped = 100;    // λ [s/m]; steel has 0.08 to 0.32
-  constexpr double fullest = 0.97;       // of the pitch circle, by balls side by side
+  constexpr double widest = 5, deepest_spall = 1e-3;  // [m]
+  constexpr double most_preload = 6e-5;               // of balls of unknown size [m]
+  constexpr double least_clearance = 1e-8;            // [m]
+  constexpr double steepest = 1.1;     // of ball screws' bearings 60 degrees [rad]
+  constexpr double most_damped = 100;  // λ [s/m]; steel has 0.08 to 0.32
+  constexpr double fullest = 0.97;     // of the pitch circle, by balls side by side
   const double d = bearing.ball_diameter, depth = bearing.defect.depth;
   const double pitch = printable_size(pitch_diameter(bearing));
   all.add(pitch > widest, format("a pitch diameter of %.3g m: are lengths in m?", pitch));
@@ -80,8 +83,15 @@ void add_bearing(Doubts& all, const Bearing& bearing)
   all.add(is_wide, format("the clearance of %g m is more than a tenth of the ball",
                           bearing.clearance));
   all.add(!is_wide && !bearing.doubt.empty(), bearing.doubt);
-  all.add(d == 0 && bearing.clearance < -most_preload,
-          format("a preload of %g m: is it in m?", -bearing.clearance));
+  const double preload = std::max(0.0, -bearing.clearance);
+  const double pressure = bearing.pressure * std::sqrt(preload) *
+                          std::pow(bearing.contact_stiffness, 1.0 / 3);
+  all.add((d == 0 && preload > most_preload) || (!is_wide && pressure > most_pressure),
+          format("a preload of %g m: is it in m?", preload));
+  all.add(bearing.clearance > 0 && bearing.clearance < least_clearance,
+          format("a clearance of %g m: is it in m?", bearing.clearance));
+  all.add(bearing.contact_angle > steepest,
+          format("a contact angle of %g rad: is it in rad?", bearing.contact_angle));
   add_stiffness(all, bearing);
   const double share =
       bearing.balls * std::asin(std::min(1.0, bearing.radius_ratio)) / std::numbers::pi;
@@ -97,8 +107,18 @@ void add_bearing(Doubts& all, const Bearing& bearing)
        {bearing.defect.place, bearing.defect.width, bearing.cage_phase})
     all.add(std::abs(angle) > angular(1),
             format("an angle of %g rad, more than a turn: is it in rad?", angle));
-  all.add(bearing.parallel.stop_gap > widest_gap,
-          format("a stop after %g m: is it in m?", bearing.parallel.stop_gap));
+}
+
+/** About what stands beside the balls. */
+void add_parallel(Doubts& all, const ParallelElements& elements)
+{
+  constexpr double widest_gap = 3e-3;  // [m]
+  all.add(elements.stop_gap > widest_gap,
+          format("a stop after %g m: is it in m?", elements.stop_gap));
+  const double last =
+      elements.linear.empty() ? 0 : elements.linear.back().speed / angular(1);
+  all.add(last > fastest_hertz,
+          format("coefficients up to %g Hz: is their f in Hz?", last));
 }
 
 /** About the unbalance and what the rotor weighs. */
@@ -185,10 +205,16 @@ Doubts doubts(const Parameters& machine, double highest)
   constexpr double heaviest = 30, lightest = 1.5;  // gravity of planets and the moon
   constexpr double lightest_stator = 5e-3;         // over the mass of the rotor
   constexpr double most_hertz = 1000;              // of a suspension
+  constexpr double fastest_over_graded = 20;
   Doubts all;
   for (const Bearing& bearing : bearings_of(machine)) add_bearing(all, bearing);
+  for (const Bearing& joint : joints_of(machine)) add_parallel(all, joint.parallel);
   const std::string too_fast = doubt_of_speed(machine, highest);
   all.add(!too_fast.empty(), too_fast);
+  const double graded = machine.balance_speed / angular(1);
+  all.add(graded > 0 && highest > fastest_over_graded * graded,
+          format("a balance grade at %g Hz of a machine at %g Hz: is its speed in rpm?",
+                 graded, highest));
   all.add(
       machine.gravity > heaviest || (machine.gravity > 0 && machine.gravity < lightest),
       format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));

@@ -134,6 +134,7 @@ std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
 static ResponseTask response_task(const ResponseRequest& request)
 {
   require_range(request.from, request.to);
+  if (request.count) require_range(request.from, request.to, request.count);
   const Parameters parameters = machine_of(request, request.from, request.to);
   if (request.method == "shooting" || request.save || request.restart ||
       request.isolated > 0)

@@ -103,7 +103,7 @@ std::map<std::size_t, std::vector<Cell>> rows_to_resume(const Sweep& sweep)
       cells.emplace_back(*number);
     }
     const auto is_next = [&](double speed) {
-      return Cell(speed).text() == cells.front().text();
+      return !cells.empty() && Cell(speed).text() == cells.front().text();
     };
     const auto rest = std::span(sweep.speeds).subspan(next);
     const auto found = std::ranges::find_if(rest, is_next);
@@ -207,15 +207,18 @@ Exploration computed(Sweep& sweep)
 }
 
 /** Whether anything touches in a motion that was not recorded: where it stands now or,
-    where nothing is loaded then, over a few periods. */
-bool touches_somewhere(motion::Answer& answer)
-{
+    where nothing is loaded then, over a few periods, if the budget has these. */
+bool touches_somewhere(motion::Answer& answer, const OperationBudget& budget)
+try {
   motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
   complete(answer,
-           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false});
+           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false},
+           budget);
   return motion::contact_share(answer.machine, answer.motion) > 0;
+} catch (const NoSolution&) {
+  return false;
 }
 
 /** The row of a settled motion. */
@@ -237,7 +240,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
     row.measured = measures.of(record_of(answer));
     if (motion::contact_share(answer.machine, answer.motion) > 0) sweep.touches = true;
     answer.motion = {};
-  } else if (!sweep.touches && touches_somewhere(answer)) {
+  } else if (!sweep.touches && touches_somewhere(answer, budget)) {
     sweep.touches = true;
   }
   return row;
@@ -308,8 +311,8 @@ Exploration response_to_tolerance(const ResponseTask& task)
        &ResponseRow::error}};
   own = own + harmonic_fields(task, Harmonics(task.harmonics));
   Sweep sweep(request, task.machine, "Frequency response at evenly spaced speeds",
-              columns_of(request, task.machine, own), task.upwards ? "up" : "down", 101,
-              1);
+              columns_of(request, task.machine, own), task.upwards ? "up" : "down",
+              task.machine.bodies->patience().speeds, 1);
   sweep.describe("aft", task.base_period,
                  "harmonics and samples chosen for each speed, from the solution before");
   Eigen::VectorXd before;

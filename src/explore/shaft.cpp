@@ -124,7 +124,7 @@ struct Shaft {
       const double inner = segment.number_or("bore_m", Range::not_negative, 0);
       if (inner >= outer) segment.fail("bore_m", "must be below diameter_m");
       const int count = segment.integer("elements", 1, most_nodes);
-      if (count >= most_nodes - std::ssize(z))
+      if (count > most_nodes - std::ssize(z))
         segment.fail("elements", format("must give at most %d nodes", most_nodes));
       for (int k = 0; k < count; ++k) {
         add_element(all, static_cast<int>(z.size()) - 1, length / count, outer, inner,

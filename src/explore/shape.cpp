@@ -28,14 +28,16 @@ Exploration explore_shape(const ShapeRequest& request)
   const auto number = [&](std::size_t i) {
     return is_numbered ? nodes.at(i, "node") : static_cast<double>(i + 1);
   };
-  auto instants =
-      static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
-      request.points;
-  if (instants > most_rows / nodes.rows())
-    throw BadInput(
-        format("--nodes %s: %zu nodes at %zu instants give more than %d rows: "
-               "--points is too large",
-               request.nodes.c_str(), nodes.rows(), instants, most_rows));
+  const auto instants_of = [&](int periods) {
+    const auto instants = static_cast<std::size_t>(periods) * request.points;
+    if (instants > most_rows / nodes.rows())
+      throw BadInput(
+          format("--nodes %s: %zu nodes at %zu instants give more than %d rows: "
+                 "--points is too large",
+                 request.nodes.c_str(), nodes.rows(), instants, most_rows));
+    return instants;
+  };
+  instants_of(std::max(request.periods, request.subharmonic));
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
   const Parameters parameters =
       machine_of(request, request.frequency, request.frequency, {.nodes = &nodes});
@@ -53,8 +55,7 @@ Exploration explore_shape(const ShapeRequest& request)
   for (const auto& [bearing, i] : machine->bearing_nodes)
     table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});
   const motion::Motion& motion = at.motion;
-  instants = static_cast<std::size_t>(std::max(request.periods, at.closes_after)) *
-             request.points;
+  const std::size_t instants = instants_of(std::max(request.periods, at.closes_after));
   Eigen::MatrixXd places(machine->nodes.rows(), instants);
   Eigen::VectorXd q(machine->nodes.cols());
   for (std::size_t k = 0; k < instants; ++k) {

@@ -134,7 +134,7 @@ Panel compare(const PanelScene& scene, std::size_t number, double frequency, Fin
           settled.periodic ? "" : format(" +- %.1g", settled.spread_error).c_str(),
           settled.seconds)};
   if (!balance.found()) return panel;
-  panel.balance = motion::motion_of(balance.bodies, points);
+  panel.balance = motion::motion_of(balance, points);
   /** The difference from a motion that is not T-periodic is that of pieces of a second,
       on average. */
   const int window = settled.periodic ? integration.shown_periods

@@ -95,7 +95,7 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
     if (std::ranges::count(printed_, k) == 0) drawn_.push_back(k);
   wanted_.assign(columns_.size(), false);
   for (std::size_t k : drawn_) wanted_[k] = true;
-  return std::ranges::max(drawn_) >= usual;
+  return !drawn_.empty() && std::ranges::max(drawn_) >= usual;
 }
 
 void Table::line(const std::string& text)

@@ -138,7 +138,7 @@ public:
   void value(const std::string& key, const Cell& value);
   void value(const std::string& key, double number, int digits)
   {
-    value(key, std::stod(format("%.*g", digits, number)));
+    value(key, std::strtod(format("%.*g", digits, number).c_str(), nullptr));
   }
   void row_line(const std::string& name, const std::vector<Cell>& cells);
   void note(const std::string& text) { sentence("note: " + text); }

@@ -80,7 +80,7 @@ struct Refused {
   std::string why;
 };
 
-double as_number(const toml::node& node, Range range)
+double as_number(const toml::node& node, const std::string& key, Range range)
 {
   if (const auto word = node.value<std::string>()) {
     /** Also of G6.3, a balance grade. */
@@ -89,12 +89,12 @@ double as_number(const toml::node& node, Range range)
       throw Refused{format("must be a number, without letters and quotes: %.9g", *value)};
   }
   if (!node.is_number()) throw Refused{"must be a number"};
-  const double value = *node.value<double>();
+  const double given = *node.value<double>(), value = in_own_unit(key, given);
   if (!std::isfinite(value)) throw Refused{"must be finite"};
   if (range == Range::positive && value <= 0)
-    throw Refused{format("must be > 0, got %g", value)};
+    throw Refused{format("must be > 0, got %g", given)};
   if (range == Range::not_negative && value < 0)
-    throw Refused{format("must be >= 0, got %g", value)};
+    throw Refused{format("must be >= 0, got %g", given)};
   return value;
 }
 
@@ -329,8 +329,9 @@ std::size_t StrictToml::way(const Ways& ways) const
 
 double StrictToml::number(const std::string& key, Range range)
 {
-  const auto value = [&](auto& node) { return as_number(node, range); };
-  return in_own_unit(content_->written(key), content_->one(*this, key, value));
+  const std::string name = content_->written(key);
+  return content_->one(*this, key,
+                       [&](auto& node) { return as_number(node, name, range); });
 }
 
 int StrictToml::integer(const std::string& key, int least, int most)
@@ -347,11 +348,9 @@ std::string StrictToml::string(const std::string& key)
 std::vector<double> StrictToml::numbers(const std::string& key, Range range,
                                         const std::string& shape)
 {
-  auto values = content_->all(
-      *this, key, [&](auto& node) { return as_number(node, range); }, shape);
   const std::string name = content_->written(key);
-  for (double& value : values) value = in_own_unit(name, value);
-  return values;
+  return content_->all(
+      *this, key, [&](auto& node) { return as_number(node, name, range); }, shape);
 }
 
 std::vector<int> StrictToml::integers(const std::string& key, int least, int most,

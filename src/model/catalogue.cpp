@@ -59,6 +59,9 @@ Designation read_designation(StrictToml& table)
   static const std::regex whole(R"(((?:[A-Z]+ +|FAG|KOYO|NACHI|NSK|NTN|SKF|SNR)*))"
                                 R"(([A-Z]*)(\d+(?:/\d\d)?)(?!\d)(.*))",
                                 std::regex::icase);
+  constexpr std::size_t longest = 100;  // std::regex recurses for each
+  if (text.size() > longest)
+    table.fail(designation_key, format("has more than %zu characters", longest));
   if (!std::regex_match(text, part, whole))
     table.fail(designation_key, "\"" + text + "\" holds no number such as 6205");
   const std::string prefix = part[2], basic = part[3];

@@ -190,7 +190,12 @@ double MatrixMachine::quickest_contact(const Parameters& parameters) const
         apart[stator] -= 1;
       most = std::max(most, apart.dot(factors.solve(apart)));
     }
-  return std::sqrt(scales(parameters).stiffness * most);
+  const Scales sizes = scales(parameters);
+  double stiffness = sizes.stiffness;
+  for (const Bearing& ground : parameters.grounds)
+    stiffness =
+        std::max(stiffness, largest_stiffness(ground.parallel, sizes.load, sizes.length));
+  return std::sqrt(stiffness * most);
 }
 
 void LargeMachine::describe(Table& table, const Parameters&) const

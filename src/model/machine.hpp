@@ -48,7 +48,8 @@ public:
   /**
   ## At rest (model/rotor_stator.cpp) */
 
-  /** Static equilibrium with ball 1 at the angle `cage`; 0 where none is unique. */
+  /** Static equilibrium with ball 1 at the angle `cage`; 0 where none is unique. With
+      elements to the ground, and of large bodies, with ball 1 where it is at t = 0. */
   virtual State at_rest(const Parameters& parameters, DirectionOf<double> cage) const;
 
   /** The bearings carry the constant loads: where the paper's figures start. */

@@ -62,17 +62,19 @@ Body read_body(StrictToml& table)
 
 /** m_e e [kg m], or the rotor's mass times its eccentricity, or what a grade G of ISO
     21940-11, the speed of the eccentricity in mm/s, allows at a speed. */
-double read_unbalance(StrictToml& table, const Body& rotor)
+double read_unbalance(StrictToml& table, Parameters& parameters)
 {
   constexpr const char *key = "eccentricity_m", *grade = "balance_grade",
                        *speed = "balance_speed_rad_per_s";
   const std::size_t way = table.way(unbalance_ways);
   if (way == 0) return table.number("unbalance_kg_m", Range::not_negative);
   if (way == 1)
-    return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
-  const double e = 1e-3 * table.number(grade, Range::not_negative) /
-                   table.number(speed, Range::positive);
-  return derived(table, grade, rotor.mass * e);
+    return derived(table, key,
+                   parameters.rotor.mass * table.number(key, Range::not_negative));
+  parameters.balance_speed = table.number(speed, Range::positive);
+  const double e =
+      1e-3 * table.number(grade, Range::not_negative) / parameters.balance_speed;
+  return derived(table, grade, parameters.rotor.mass * e);
 }
 
 /** A stator that no force moves: so much heavier than the rotor that its motion is below
@@ -111,7 +113,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   if (!read_rigid(stator, parameters.rotor.mass, parameters.stator) &&
       !stator.has(matrices))
     parameters.stator = read_body(stator);
-  if (is_mass) parameters.unbalance = read_unbalance(rotor, parameters.rotor);
+  if (is_mass) parameters.unbalance = read_unbalance(rotor, parameters);
   StrictToml gravity = root.table("gravity");
   gravity.may_hold({{gravity_key}});
   parameters.gravity = gravity.number(gravity_key, Range::not_negative);

@@ -161,7 +161,8 @@ struct Parameters {
   Identity identity;  ///< of the file's keys and of the matrices that it names
   Body stator;
   Body rotor;
-  double unbalance;  ///< m_e e [kg m], on the rotor
+  double unbalance;          ///< m_e e [kg m], on the rotor
+  double balance_speed = 0;  ///< [rad/s] of its balance grade, 0 without one
   Bearing bearing;
   double gravity;                         ///< g [m/s²], along -y
   std::vector<std::string> derived = {};  ///< lines for headers: what a catalogue gave

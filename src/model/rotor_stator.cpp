@@ -54,6 +54,12 @@ double joint_resonance(const Parameters& parameters)
                    (parameters.stator.mass + parameters.rotor.mass));
 }
 
+double speed_scale(const Parameters& parameters)
+{
+  const double joint = joint_resonance(parameters);
+  return joint > 0 ? joint : contact_frequency(parameters);
+}
+
 Scales scales(const Parameters& parameters)
 {
   const Body &s = parameters.stator, &r = parameters.rotor;

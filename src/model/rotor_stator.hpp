@@ -164,6 +164,10 @@ inline Eigen::VectorXd state_scales(const Parameters& parameters)
     rigid stator that of the rotor, on the contact if it has no suspension. */
 double joint_resonance(const Parameters& parameters);
 
+/** The same, a size of speeds [rad/s]; where elements to the ground alone hold both
+    bodies, the contact's frequency. */
+double speed_scale(const Parameters& parameters);
+
 /** The static part of `rigid_joint_force`, (k_s f_r - k_r f_s)/(k_s + k_r) [N]. */
 Vec2 static_joint_force(const Parameters& parameters);
 

@@ -460,7 +460,7 @@ static bool is_kept_up(const Answer& found)
 {
   constexpr double apart = 0.05;
   return found.stability == "unstable" ||
-         (found.settled.contracts && found.error && found.error->largest > apart);
+         (found.settled.contracts && found.error && found.error->larger() > apart);
 }
 
 Answer answer(const Parameters& parameters, const Request& request,

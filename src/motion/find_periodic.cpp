@@ -334,6 +334,7 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
     std::vector<Eigen::VectorXd> known = search.starts;
     bool is_known = false;                     ///< whether the solution's own motion is
     bool is_settled = turns > 1;               ///< whether where the machine settles is
+    bool may_settle = true;                    ///< on a motion of one turn
     const int each = search.parameters.turns;  // so that a turn has whole numbers
     for (int least = first; turns * least <= most && !at.reached; least *= 2) {
       const int m = (least + each - 1) / each * each;
@@ -341,13 +342,14 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
       const int samples = std::min(default_samples(m), most_samples / turns);
       search.samples = (samples + each - 1) / each * each;
       bool is_thorough = m >= few && !is_known && !is_settled;
-      if (is_thorough) try {
+      if (is_thorough && may_settle) try {
           known.push_back(settled_start(search, few));
           search.starts.push_back(known.back());
           is_settled = true;
           is_thorough = false;
         } catch (const NoSolution&) {
           if (search.budget.used_up()) throw;
+          may_settle = false;
         }
       PeriodicMotion motion =
           is_thorough ? find_periodic(search) : find_near_contact(search);

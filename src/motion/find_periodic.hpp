@@ -38,7 +38,7 @@ struct Judged {
 
 /** The solution with m = 6, 12, 24, … harmonics, at most 1536 and 2^14 samples, K T being
     the period, whose error is within the tolerance; `search.harmonics` and `samples` are
-    not read. */
+    read of a motion of several turns alone, to find it. */
 Judged to_tolerance(BalanceSearch search, double tolerance);
 
 /** The solution with the harmonics that are asked for; without a tolerance any error is

@@ -75,7 +75,7 @@ struct Closer {
   }
 
   /** The states of the motion through `state` at phase 0. */
-  Eighths through(State state) const
+  Eighths through(State state)
   {
     const auto stepper = flow(
         parameters, omega,
@@ -85,6 +85,7 @@ struct Closer {
       at.push_back(state);
       stepper->advance(k, state);
     }
+    evaluations += static_cast<double>(stepper->evaluations());
     return at;
   }
 
@@ -350,8 +351,8 @@ std::vector<Eighths> starts_near(const BranchPoint& point, std::vector<Found> ne
 BranchStability machine_stability(const Parameters& parameters, Curve& curve,
                                   const Branch& branch, const OperationBudget& budget)
 {
-  const double width = 0.004 * joint_resonance(parameters) / parameters.turns;
-  const double reach = 0.01 * joint_resonance(parameters) / parameters.turns;
+  const double width = 0.004 * speed_scale(parameters) / parameters.turns;
+  const double reach = 0.01 * speed_scale(parameters) / parameters.turns;
   const double most = std::max(2e6, 0.04 * std::min(budget.left(), 2e9));
   std::vector<Found> found;
   const auto multipliers_at = [&](const BranchPoint& point) {

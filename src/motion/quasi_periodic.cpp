@@ -152,11 +152,13 @@ struct SettledTorus {
 
   const TorusSearch& search;
   const Parameters& parameters = search.parameters;
-  Answer compared = {};                        ///< with solutions, and how exact it is
-  long first_period = 0;                       ///< of the record
+  Answer compared = {};   ///< with solutions, and how exact it is, if that is wanted
+  long first_period = 0;  ///< of the record
   std::vector<FineTransform> transforms = {};  ///< of the relative motions [m]
 
-  explicit SettledTorus(const TorusSearch& wanted, double step_ratio = 1) : search(wanted)
+  explicit SettledTorus(const TorusSearch& wanted, double step_ratio = 1,
+                        bool is_compared = false)
+      : search(wanted)
   {
     /** Twice as many as the highest order that is looked for. */
     const double contact = contact_frequency(parameters) / search.omega;
@@ -181,8 +183,8 @@ struct SettledTorus {
     };
     const Motion record = completed(turns, false).motion;
     first_period = record.first_period;
-    compared = completed(compared_turns, true);
-    if (!compared.error)
+    if (is_compared) compared = completed(compared_turns, true);
+    if (is_compared && !compared.error)
       throw NoSolution("the error of the integrated motion needs more than the budget");
     const Eigen::MatrixXd samples = relative_samples(parameters, record);
     const Eigen::VectorXd window = blackman_harris(samples.rows());
@@ -354,7 +356,7 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
   constexpr int first = 16, most = 256;
   Torus torus;
   try {
-    const SettledTorus settled(search, step_ratio(tolerance));
+    const SettledTorus settled(search, step_ratio(tolerance), true);
     const auto all = settled.all_lines();
     Motion exact = settled.compared.motion;
     Error uncertain = *settled.compared.error;

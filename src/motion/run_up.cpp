@@ -170,7 +170,7 @@ void run_up(const Parameters& parameters, const RunUp& run, std::vector<PassedTu
   double began = 0, made = 0;
   Turning now = equation.turning(0);
   for (double k = 0; k < steps; ++k) {
-    budget.spend(4);
+    budget.spend(5);  // the last one for what is seen
     const Turning at[]{now, equation.turning((k + 0.5) * h),
                        equation.turning((k + 1) * h)};
     const State before = state;

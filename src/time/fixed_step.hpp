@@ -52,7 +52,7 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
 
 enum class Rule { rk4, splitting, central };
 
-/** The machine's constants, and its directions along one output interval. */
+/** Steps of one length by one of these rules. */
 class FixedStep : public Flow {
 public:
   /** P = `intervals` per base period, each cut into the fewest steps not longer than

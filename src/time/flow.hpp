@@ -47,7 +47,7 @@ struct StepSettings {
       `step_at`. */
   double step = 0;
   double tolerance = 1e-10;     ///< of the others: local error of a step over the sizes
-  OperationBudget budget = {};  ///< in evaluations of Eq. 7; without one, 1e9 of them
+  OperationBudget budget = {};  ///< in evaluations of Eq. 7; without one `flow` has 1e9
 };
 
 /** Large bodies take Gauss's rule; by "auto" with a tolerance of 1e-8 at `step_at`, which
@@ -85,8 +85,8 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
    to 2.8/ω_contact and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
 
-/** The step [s] of rk4 at a base frequency: `default_step`, which the constant loads
-    choose; shorter where the unbalance presses the contact much more, and where balls
+/** The step [s] of rk4 at a base frequency: `default_step`, which the loads on the
+    bearing choose; shorter where the unbalance presses the contact much more, and where balls
     pass fast and the splitting takes steps four times as long. */
 inline double step_at(const Parameters& parameters, double omega)
 {

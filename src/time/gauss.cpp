@@ -282,14 +282,11 @@ void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
       ++now_;
       continue;
     }
-    if (!std::isfinite(error))
+    const bool is_alone = y.cols() == 1;
+    if (!std::isfinite(error) ||
+        !(is_alone || (step(half, phase, y) && step(half, middle, y))))
       throw Diverged(format("time integration diverged at t = %.9g s", phase / omega_));
-    if (y.cols() > 1) {
-      step(half, phase, y);
-      step(half, middle, y);
-    } else {
-      y = fine;
-    }
+    if (is_alone) y = fine;
     taken_.push_back(now_);
     const double length = std::ldexp(1.0, -now_);
     passed += length;

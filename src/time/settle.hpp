@@ -2,7 +2,8 @@
 # The motion after a start
 
 Eq. 7 is integrated from a state, together with a neighbour (trajectory_pair.hpp). A
-transient that decays is over when their distance has shrunk to 1e-9 of its largest value.
+transient that decays is over when their distance has shrunk to 1e-9 of its largest value;
+to the square of that, while there is time, if it grew like chaos before.
 The mean growth rate λ of the distance, the largest Lyapunov exponent, and the Poincaré
 section decide the kind of the motion, the first of these that holds:
 
@@ -10,7 +11,7 @@ section decide the kind of the motion, the first of these that holds:
   1e-12 of clearance plus static deflection.
 - `periodic`: the section, one point in each base period, repeats itself to 1e-6 of the
   vibration after K ≤ 16 of them, the smallest such K; where two frequencies drive, K = 1
-  turn, without contact.
+  turn, as of a rotor that touches nothing.
 - `chaotic`: λ > 2d, or λ > d after half of `longest`, and the growth does not fade: in
   the last quarter it is at least e⁵, and more than the root of that in the quarter
   before.
@@ -22,12 +23,13 @@ section decide the kind of the motion, the first of these that holds:
 integrated; d is 3s plus the error of λ by the step. `chaotic` and `quasi-periodic` are
 decided after 4 to 50 s at the earliest.
 
-Integration starts at or before t = 0. It ends before t = 0 only if neighbours have
-converged by 1e-9 and the motion is at rest or closes; a periodic motion then begins at
-t = 0. The state of a motion that two frequencies drive belongs to its instant. If
-neighbours converge, the state is assigned to an instant so early that the difference
-decays by t = 0, and integrated from there, if that takes at most 1e8 evaluations. Every
-other motion begins where the integration ended.
+Integration starts at or before t = 0. It ends before t = 0 only if one frequency drives,
+neighbours have converged by 1e-9 and the motion is at rest or closes; a periodic motion
+then begins at t = 0. The state of a motion that two frequencies drive belongs to its
+instant. If it is quasi-periodic and reached after t = 0, the state is assigned to an
+instant so early that the difference decays by t = 0, and integrated from there, if that
+takes at most 1e8 evaluations and the budget has them. Every other motion begins where the
+integration ended.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
@@ -39,8 +41,8 @@ diverges, or sustains a motion that Eq. 7 does not have. The motion found is the
 followed for one base period with a quarter of the step, for 32 where it is said to be
 quasi-periodic though one frequency drives. If that leads elsewhere, or if integration
 diverged, it is repeated once with such steps; with a fixed step the motion is
-`undecided`, or lost. It goes on with such steps of rk4 if neighbours meet on a motion
-that does not close, or part so slowly that chaos is found after half of `longest` only,
+`undecided`, or lost. It goes on with such steps of rk4 if one frequency drives and
+neighbours meet on a motion that does not close, or if they part so slowly that chaos is found after half of `longest` only,
 and not at the first look: longer steps may lock a torus to many turns, or keep up the
 growth.
 
@@ -77,7 +79,7 @@ struct Settled {
   Instant at;              ///< a state on the motion: see above
   double step = 0;         ///< longest of rk4 that was taken, or of the same error [s]
   Instant before;      ///< since this one distances shrank by 1e-7: other steps forget it
-  double seconds = 0;  ///< integrated
+  double seconds = 0;  ///< integrated with these steps
   double evaluations = 0;   ///< of Eq. 7
   std::string reason = {};  ///< why it is undecided
 };

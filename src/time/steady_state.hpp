@@ -10,8 +10,8 @@ after `longest` seconds; the motion is then called periodic if the spread is bel
 
 Only averages of a chaotic motion are the same on all processors. The spread of an
 aperiodic motion is therefore the mean over the windows of the second half of the
-integration, with its standard error; with `average`, over the windows of that many
-further seconds, which are recorded. */
+integration, with its standard error; with `average`, over those and the windows of that
+many further seconds, which are recorded. */
 #pragma once
 
 #include <functional>
@@ -37,8 +37,7 @@ struct SteadySettings {
 SteadySettings read_steady_settings(SceneFile& scene);
 
 struct SteadyState {
-  std::vector<State> states =
-      {};                   ///< P per period, `shown_periods` of them, from phase 0
+  std::vector<State> states = {};  ///< P per period, `shown_periods` or `average` long
   long first_period = 0;    ///< periods since t = 0 at states[0], for the cage's angle
   double spread = 0;        ///< Poincaré spread [-]
   double spread_error = 0;  ///< its standard error where the motion is aperiodic [-]

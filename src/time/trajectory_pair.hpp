@@ -29,7 +29,8 @@ struct Instant {
 
 class TrajectoryPair {
 public:
-  /** `flow`: of fixed step, since the error of an adaptive one would pass for growth.
+  /** `flow`: of fixed step or one that gives both the same steps (`advance_beside`), else
+      its error would pass for growth.
       `sizes` of the components make the distance a number; where the motion is far larger
       than they are, they grow, and the neighbour begins anew. */
   TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period, double period,

@@ -75,17 +75,17 @@ class Corners(Case):
                 self.assertEqual(largest, 0)
 
     def test_each_alone(self):
-        for cage in CAGES:
+        for cage in some(CAGES, 2):
             self.ends_well((), cage)
             for corner in CORNERS:
                 self.ends_well((corner,), cage)
 
     def test_pairs(self):
-        for corners in some(itertools.combinations(CORNERS, 2), 2):
+        for corners in some(itertools.combinations(CORNERS, 2), 4):
             self.ends_well(corners, CAGES[3])
 
     def test_all_together_and_all_but_one(self):
-        for cage in (CAGES[0], CAGES[4]):
+        for cage in some((CAGES[4], CAGES[0]), 2):
             self.ends_well(tuple(CORNERS), cage)
             for without in CORNERS:
                 self.ends_well(tuple(set(CORNERS) - {without}), cage)

@@ -465,7 +465,7 @@ ONCE_TOO_CHEAP = [
 # The tests
 
 
-TIMES = float(os.environ.get("EXAMPLES", 1)) * (1 if FULL else 0.5)  # the questions of each test
+TIMES = float(os.environ.get("EXAMPLES", 1)) * (1 if FULL else 0.25)  # the questions of each test
 
 
 class Explore(unittest.TestCase):

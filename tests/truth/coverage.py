@@ -2,17 +2,17 @@
 motion of Eq. 7 itself, which shooting closes (one frequency) or which integration follows for at least 100 turns (two).
 A distance from another motion, or a solution that has not converged, would show.
 
-30 machines, with FULL in the environment 100, or COUNT.
+12 machines, with FULL in the environment 100, or COUNT.
 """
 import math
 import os
 import random
 
 from tests.machines import entries, random_machine, written
-from tests.support.explore import FULL, Case, Table
+from tests.support.explore import FULL, Case, Table, some
 
 TOLERANCES = [1e-2, 1e-3, 1e-4]
-COUNT = int(os.environ.get("COUNT", 100 if FULL else 30))
+COUNT = int(os.environ.get("COUNT", 100 if FULL else 12))
 
 
 def drawn(seed):
@@ -48,7 +48,7 @@ class Coverage(Case):
         return tolerance, result
 
     def test_machines_that_were_wrong_once(self):
-        for seed in [*BEYOND, *OTHER, *CHAOTIC]:
+        for seed in some([*BEYOND, *OTHER, *CHAOTIC], 3):
             with self.subTest(seed=seed):
                 tolerance, result = self.answer_of(seed)
                 if seed in CHAOTIC:

@@ -159,6 +159,7 @@ class Catalogue(Case):
                 (C3.replace("6205", "NU205"), "is a cylindrical roller bearing"),
                 (C3.replace("6205", "7205 BECBP"), "is an angular contact ball bearing"),
                 (C3.replace("6205", "62051"), "is not in the catalogue"),
+                (C3.replace("6205", "6205 " + "x" * 200_000), "has more than 100 characters"),
                 (C3.replace("6205", "SKF"), "holds no number such as 6205")]:
             self.refused_machine(words, machine(bearing))
 

@@ -118,15 +118,21 @@ class Check(Case):
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz, or the stiffness in N/m?"),
                                ("unbalance_kg_m = 0.0001", "unbalance_kg_m = 1e-8", "finer than any rotor is balanced"),
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 80\ndamping_N_s_per_m = 3e5", "is the damping in N s/m?"),
+                               ("unbalance_kg_m = 0.0001", "balance_grade = 6.3\nbalance_speed_rpm = 25", "is its speed in rpm?"),
                                ("damping_N_s_per_m = 10", "damping_N_s_per_m = 8e5", "is it in N s/m?"),
                                ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, -1e9]", "the machine gives way by"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
             self.assertIn(old, HELD)
             self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)
+        self.file("seal.tsv", "f\tc_xx\n600\t1\n3000\t2\n")
         for more, word in [(LOOSE + "contact_damping_s_per_m = 1000", "a contact damping of 1000 s/m"),
                             (LOOSE + '[bearing.defect]\nsurface = "outer_race"\ndepth_mm = 2\nwidth_rad = 0.1', "a spall of 0.002 m depth"),
                             (LOOSE + '[bearing.defect]\nsurface = "outer_race"\ndepth_um = 2\nwidth_rad = 0.1\nangle_rad = -90', "an angle of -90 rad"),
                             (LOOSE + "[bearing.parallel]\nstop_stiffness_N_per_m = 1e6\nstop_gap_m = 80", "a stop after 80 m"),
+                            (LOOSE + '[bearing.parallel]\ncoefficients = "seal.tsv"', "coefficients up to 3000 Hz"),
+                            (NAMED + "contact_angle_rad = 1.5", "a contact angle of 1.5 rad"),
+                            (NAMED + "radial_clearance_um = 2e-5", "a clearance of 2e-11 m"),
+                            (NAMED + "radial_clearance_um = -200", "a preload of 0.0002 m"),
                             (NAMED + "radial_clearance_um = -1000", "more than a tenth of the ball"),
                             (MANY.replace(f"= {BALLS}", "= 9").replace(f"= {HERTZ}", "= 2.7e5"), "a contact stiffness of 2.7e+05 N/m^1.5"),
                             (MANY.replace(f"_m1p5 = {HERTZ}", "_mn = 5e10\ncontact_exponent = 1.11"), "a contact stiffness of 5e+10 N/m^1.11")]:

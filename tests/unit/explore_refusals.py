@@ -26,6 +26,8 @@ class Values(Case):
         for old, new, words in [
                 ("mass_kg = 20.0", "mass_kg = 0.0", f":{line}: stator.mass_kg must be > 0"),
                 ("mass_kg = 20.0", "mass_kg = -1", "stator.mass_kg must be > 0"),
+                ("mass_kg = 20.0", "mass_t = 1e306", "stator.mass_t must be finite"),
+                ("mass_kg = 20.0", "mass_g = 1e-323", "stator.mass_g must be > 0"),
                 ("mass_kg = 20.0", "mass_kg = nan", "stator.mass_kg must be finite"),
                 ("mass_kg = 20.0", "mass_kg = inf", "stator.mass_kg must be finite"),
                 ("mass_kg = 20.0", 'mass_kg = "heavy"', "stator.mass_kg must be a number"),
@@ -135,6 +137,9 @@ class Values(Case):
         self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
         self.refused("; is --step 0.001 too long?", "orbit", self.machine, *ORBIT, "--step", 1e-3, status=3)
+        self.refused("--count 1: is for --from equal to --to", "response", self.machine, *RESPONSE, "--count", 1, "--method", "aft", "--tolerance", 1e-3)
+        for flag in ("--quiet=7", "--no-stability=5"):
+            self.refused("disallowed flag override", "orbit", self.machine, *ORBIT, flag)
         self.refused("subcommand")
         self.refused("subcommand", "dance")
 
@@ -165,6 +170,7 @@ class Values(Case):
         for program, old, new, words in [
                 ("fig03_response", "step = 0.1 }", "step = 1e-8 }", "balance_hz.step gives more than 100000 speeds"),
                 ("fig05_displacements", "title", "titel", "title is missing"),
+                ("regimes", "points_per_period = 256", "points_per_period = 8", "points_per_period"),
                 ("tab02_equal_error", "[1e-2, 1e-3, 1e-6]", "[1e-6, 1e-3, 1e-2]", "targets"),
                 ("tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"),
                 ("tab02_equal_error", '"rkf45"', '"rkf46"', "methods"), ("tab02_equal_error", "closures", "closure", "closures"),

@@ -158,6 +158,8 @@ class Branch(Case):
         for kept in (part[:-13], holed):
             rest = self.rows(*thirds, "--resume", self.file("part.tsv", "\n".join(kept) + "\n"))
             self.assertEqual(rest, [row for row in whole if row[0] != "#"])
+        blank = self.file("blank.tsv", "\n".join([*part[:-13], "", *part[-13:]]) + "\n")
+        self.refused("holds other points", *thirds, "--resume", blank)
         with open(self.folder / "part.tsv", "a", encoding="utf-8") as rows:
             self.refused("is where the rows go", *thirds, "--resume", "part.tsv", stdout=rows)
         self.refused("needs f as the first", *thirds, "--columns", "amp_x_r,f", "--resume", "part.tsv")
@@ -450,7 +452,7 @@ class Rounding(Case):
         has_avx2 = "avx2" in Path("/proc/cpuinfo").read_text(encoding="utf-8").split()
         if not has_avx2:
             print("no AVX2 here: other sines are not compared", file=sys.stderr)
-        for case in some(self.CASES, 2):
+        for case in some(self.CASES, 3):
             with self.subTest(case):
                 first = self.orbit(case, float(case[1]))
                 others = [self.orbit(case, case[1] * (1 + k * 1e-15)) for k in (-2, 1, 3)]

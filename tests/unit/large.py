@@ -9,6 +9,7 @@ import sys
 import time
 import tomllib
 import types
+import unittest
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from scipy.io import mmread
 from tests.machines import table
 from tests.truth.independent import errors
 from tests.unit.shaft import STEEL, disk, segment, support
-from tests.support.explore import EXPLORE, FORCES, MACHINE, NAMES, SANITIZED, SETS, Case, Table
+from tests.support.explore import EXPLORE, FORCES, FULL, MACHINE, NAMES, SANITIZED, SETS, Case, Table, some
 
 GRAVITY = 9.81
 BRIEF = ["--frequency", 45, "--harmonics", 6, "--points", 4, "--no-stability"]
@@ -103,9 +104,9 @@ class Large(Case):
                "stop_gap_m = 2.1e-5\n"
         damped, hertz = "balls = 16\ncontact_damping_s_per_m = 2.0\n", "contact_stiffness_N_per_m1p5 = "
         plain = self.paper_machine()
-        for changes, more in [([("balls = 16\n", damped)], ""), ([("clearance_m = 2e-05\n", "clearance_m = -5e-6\n")], ""),
+        for changes, more in some([([("balls = 16\n", damped)], ""), ([("clearance_m = 2e-05\n", "clearance_m = -5e-6\n")], ""),
                               ([("balls = 16\n", "balls = 16\ncontact_exponent = 1.1\n"), (hertz + "100000000000.0", "contact_stiffness_N_per_mn = 1e9")], ""),
-                              ([("balls = 16\n", damped)], '[bearing.defect]\nsurface = "inner_race"\ndepth_m = 2e-6\nwidth_rad = 0.3\n'), ([], seal)]:
+                              ([("balls = 16\n", damped)], '[bearing.defect]\nsurface = "inner_race"\ndepth_m = 2e-6\nwidth_rad = 0.3\n'), ([], seal)], 2):
             files = []
             for name, text in [("own.toml", plain), ("paper.toml", MACHINE.replace("2e-5\n", "2e-05\n").replace("1e11", "100000000000.0"))]:
                 for old, new in changes:
@@ -416,9 +417,9 @@ class Large(Case):
 
     def test_a_tolerance_is_kept(self):
         """Against the motion on which the stepper settles: an error that is not seen at the bearing would show."""
-        for bearings, spring in [([(4, {**BEARING, "phase": 0.3, "clearance": 2e-5})], 4e6), ([(0, BEARING), (4, OTHER)], 0)]:
+        for bearings, spring, speeds in [([(4, {**BEARING, "phase": 0.3, "clearance": 2e-5})], 4e6, [30, 70]), ([(0, BEARING), (4, OTHER)], 0, [70, 30])]:
             own = self.file("shaft.toml", self.shaft(4, bearings, spring)[0])
-            for speed in [30, 70]:
+            for speed in some(speeds, 2):
                 ask = ["orbit", own, "--frequency", speed, "--points", 100, "--columns", "all"]
                 found = self.table(*ask, "--method", "aft", "--tolerance", 1e-3)
                 exact = self.table(*ask, "--method", "gauss", "--local-error", 1e-8, "--longest", 2)
@@ -488,6 +489,7 @@ class Large(Case):
         self.assertIn("the budget of 1e+07 evaluations of the force is used up; more with --budget", result.stderr)
         self.assertTrue(0 < len(np.unique(part["f"])) < 10000)
 
+    @unittest.skipUnless(FULL, "of make test-all: it measures a time")
     def test_a_body_of_very_many_pieces(self):
         """Unconnected degrees of freedom are put in order, and looked at, in a time that grows as their number does: 300,000
         of them took 16 s."""

@@ -258,6 +258,10 @@ class Values(Case):
                                 "--quantity", "amplitude")
         self.assertEqual((none.returncode, len(Table.of(none.stdout)["status"])), (3, 2))
         self.assertIn("2 of 2 points have no result", none.stderr)
+        drawn = self.run_explore("map", self.machine, "--y", "bearing.cage_speed_ratio=0.43:0.431:2", "--x", "frequency=45:46:2", *SIX,
+                                 "--quantity", "stability", "--plot", "none.svg")
+        self.assertEqual((drawn.returncode, drawn.stderr.count("\n")), (3, 1), drawn.stderr)
+        self.assertIn("</svg>", (self.folder / "none.svg").read_text(encoding="utf-8"))
         other = self.file("other.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
         self.refused("a map has none where two frequencies drive", "map", other, "--x", "rotor.mass_kg=30:40:2", "--sweep", "20:60:9",
                      "--quantity", "peak")
@@ -283,6 +287,7 @@ class Refusals(Case):
         for words, text in [
                 ("bearing.colour is not a known key here (known: ball_diameter_m, ball_radius_m, balls, ", f"--x bearing.colour=1:2:3 {usual}"),
                 ("did you mean balls", f"--x bearing.bals=1:2:3 {usual}"),
+                ("period is of the motion from rest; leave them out", "--frequency 45 --quantity period,regime --harmonics 6 --x rotor.mass_kg=30:40:2"),
                 ("wind is not a known key", f"--x wind.speed=1:2:3 {usual}"),
                 ("title must be a string", f"--x title=1:2:3 {usual}"),
                 ("--x rotor.mass_kg=-1:1:3: ", f"--x rotor.mass_kg=-1:1:3 {usual}"),

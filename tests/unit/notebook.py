@@ -16,7 +16,7 @@ class Notebook(unittest.TestCase):
     def test_it_runs(self):
         """Would catch an option or a column of explore, or a name of the module, that the notebook still has by its old name."""
         with tempfile.TemporaryDirectory() as folder:
-            environment = {**os.environ, "EXPLORE": str(EXPLORE), "HOME": folder}
+            environment = {**os.environ, "EXPLORE": f"env {EXPLORE}", "HOME": folder}
             ran = subprocess.run(["jupyter-nbconvert", "--to", "notebook", "--execute", "--output-dir", folder, NOTEBOOK.resolve()],
                                  capture_output=True, encoding="utf-8", env=environment, check=False)
             self.assertEqual(ran.returncode, 0, ran.stderr)

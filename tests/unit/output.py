@@ -130,17 +130,17 @@ class Formats(Case):
                 self.assertFalse([node for node in figure.iter() if node.tag.endswith("script")])
 
     def test_every_command_draws(self):
-        """On data set 1 and on a balanced 6205; in each format twice alike; what is missing is said before any work."""
+        """On data set 1 and, every second one, on a balanced 6205; in each format twice alike; what is missing is said before any work."""
         balanced = self.file("own.toml", changed(CARRIED, unbalance_kg_m=0.0))
         axis = ["map", "--frequency", 45, "--x", "bearing.radial_clearance_m=1e-5:2e-5:3", *SIX, "--quantity"]
         commands = [["orbit", *AT_45, *SIX], ["contact", *AT_45, *SIX], ["spectrum", "--frequency", 45, *SIX], ["response", *TO_45, *SIX],
                     ["attractors", "--from", 44, "--to", 44, "--count", 1, "--starts", 0], [*axis, "amplitude"],
                     [*axis, "stability", "--y", "rotor.mass_kg=40:50:2"]]
         for machine in [self.machine, balanced]:
-            for k, (command, *options) in enumerate(commands):
+            for k, (command, *options) in enumerate(commands if machine == self.machine else some(commands, 2)):
                 suffix, begin = [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF")][k % 3]
                 figures = set()
-                for _ in range(2 if machine == self.machine else 1):
+                for _ in range(2 if machine == self.machine and k < 3 else 1):
                     self.lines(command, machine, *options, "--plot", "drawn" + suffix, "--force")
                     figures.add((self.folder / ("drawn" + suffix)).read_bytes())
                 self.assertEqual(len(figures), 1, command)

@@ -145,6 +145,14 @@ class Parallel(Case):
         for name in ("static_force", "static_y", "eccentricity", "balance_grade", "f_1_x", "f_1_y", "f_2_x", "f_2_y"):
             self.assertAlmostEqual(rest[name] / exact[name], 1, delta=1e-6, msg=name)
 
+    def test_bodies_that_the_ground_alone_holds(self):
+        """A branch goes on where neither body has a suspension: its arc length had no size of speeds."""
+        free = MACHINE.replace("s = 500.0", "s = 0").replace("s = 150.0", "s = 0").replace("damping_ratio = 0.05", "damping_N_s_per_m = 1000")
+        free = free.replace("damping_ratio = 0.02", "damping_N_s_per_m = 240") + "[stator.ground]\nstiffness_N_per_m = [5.9e6, 0, 0, 5.9e6]\n"
+        own = self.file("own.toml", free)
+        branch, orbit = self.table("response", own, "--from", 44, "--to", 45, "--harmonics", 6), self.table("orbit", own, "--frequency", 45, "--harmonics", 6)
+        self.assertAlmostEqual(branch["amp_x_r"][-1] / (np.ptp(orbit["x_r"]) / 2), 1, delta=1e-3)
+
     def test_a_rotor_that_hangs_in_a_spring(self):
         """Beside the balls and to the ground, where nothing else holds it: its place at rest in closed form. Would catch an equilibrium that
         is given up where the spring is not stiff yet, as without displacement."""
