@@ -2,7 +2,7 @@
 motion of Eq. 7 itself, which shooting closes (one frequency) or which integration follows for at least 100 turns (two).
 A distance from another motion, or a solution that has not converged, would show.
 
-12 machines, with FULL in the environment 100, or COUNT.
+30 machines, with FULL in the environment 100, or COUNT.
 """
 import math
 import os
@@ -12,7 +12,7 @@ from tests.machines import entries, random_machine, written
 from tests.support.explore import FULL, Case, Table, some
 
 TOLERANCES = [1e-2, 1e-3, 1e-4]
-COUNT = int(os.environ.get("COUNT", 100 if FULL else 12))
+COUNT = int(os.environ.get("COUNT", 100 if FULL else 30))
 
 
 def drawn(seed):
