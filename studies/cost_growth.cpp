@@ -55,9 +55,7 @@ CostGrowthScene read_cost_growth(const SceneFile& file)
   const CostGrowthScene scene{file};
   if (scene.below >= scene.frequency)
     scene.toml.fail("below_hz", "must be below speed_hz");
-  if (std::ranges::adjacent_find(scene.harmonics, std::ranges::greater_equal{}) !=
-      scene.harmonics.end())
-    scene.toml.fail("harmonics", "must rise");
+  if (!std::ranges::is_sorted(scene.harmonics)) scene.toml.fail("harmonics", "must rise");
   scene.toml.refuse_unknown_keys();
   return scene;
 }

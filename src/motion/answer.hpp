@@ -10,12 +10,12 @@ its kind:
   local error is a hundredth. If shooting fails, or a stepper is asked for, the motion is
   recorded.
 - Every other motion is recorded, as that of most real bearings, which two frequencies
-  drive. If neighbours converge, it is stable and recorded twice
-  from `settled.before`, the second time with half the step or a fourth of the local
-  error. The second record is `motion`; its difference from the first plus the rest of the
-  transient is the error. With a tolerance the step is halved at most six times. A force
-  less smooth than Hertz's needs one halving more, and the larger of the last two
-  differences counts. If the budget is too small, there is no error.
+  drive. If neighbours converge, it is stable and recorded twice from `settled.before`,
+  the second time with half the step or a fourth of the local error. The second record is
+  `motion`; its difference from the first plus the rest of the transient is the error.
+  With a tolerance the step is halved at most six times. A force less smooth than Hertz's
+  needs one halving more, and the larger of the last two differences counts. If the budget
+  is too small, there is no error.
 - If neighbours do not converge, the record depends on rounding: no error, `undecided`.
   Chaos may be a transient: if the motion closes while it is observed, it is settled anew
   from there.

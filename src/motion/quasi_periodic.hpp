@@ -5,7 +5,8 @@ The harmonics (k_1, k_2) have the frequencies k_1 ω + k_2 n ω_cage. They are a
 to a sum, or the largest lines of the motion that Eq. 7 settles on from rest; the number
 of lines is doubled until the solution is near enough to a motion of Eq. 7. This is the
 one that integration from the first solution settles on (without a verdict the one from
-rest) or, if doubling does not halve the distance from it, from a later solution. Integrated motions are in motion/answer.
+rest) or, if doubling does not halve the distance from it, from a later solution.
+Integrated motions are in motion/answer.
 
     Torus found = torus_to_tolerance({parameters, omega}, 1e-3); */
 #pragma once

@@ -86,8 +86,8 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 double default_step(const Parameters& parameters);
 
 /** The step [s] of rk4 at a base frequency: `default_step`, which the loads on the
-    bearing choose; shorter where the unbalance presses the contact much more, and where balls
-    pass fast and the splitting takes steps four times as long. */
+    bearing choose; shorter where the unbalance presses the contact much more, and where
+    balls pass fast and the splitting takes steps four times as long. */
 inline double step_at(const Parameters& parameters, double omega)
 {
   return parameters.bodies->step(parameters, omega);

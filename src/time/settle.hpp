@@ -42,9 +42,9 @@ followed for one base period with a quarter of the step, for 32 where it is said
 quasi-periodic though one frequency drives. If that leads elsewhere, or if integration
 diverged, it is repeated once with such steps; with a fixed step the motion is
 `undecided`, or lost. It goes on with such steps of rk4 if one frequency drives and
-neighbours meet on a motion that does not close, or if they part so slowly that chaos is found after half of `longest` only,
-and not at the first look: longer steps may lock a torus to many turns, or keep up the
-growth.
+neighbours meet on a motion that does not close, or if they part so slowly that chaos is
+found after half of `longest` only, and not at the first look: longer steps may lock a
+torus to many turns, or keep up the growth.
 
 A `Settling` does the same side by side with others (side_by_side.hpp). The machine is
 that of `over`, whose angles are counted per base period; where two frequencies drive, per
