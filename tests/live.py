@@ -186,6 +186,7 @@ class Page(BrowserCase):
                 state = self.js("return state")
                 self.assertEqual(state["toml"], Path(path).read_text())
                 self.assertIn(f"build/explore orbit {path} --frequency {state['f']}", self.text("command"))
+                self.assertEqual(float(self.js("return $('f-slide').value")), state["f"])
                 self.wait("$('verdict').className !== 'computing'")
                 self.assertIn(self.js("return $('verdict').className"), ("stable", "unstable", "undecided"))
                 self.wait("/periodic|chaotic/.test($('steady').textContent)")

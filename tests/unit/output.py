@@ -112,6 +112,10 @@ class Formats(Case):
         rows = list(csv.DictReader(io.StringIO("\n".join(self.lines(*arguments, "--format", "csv")))))
         np.testing.assert_array_equal([float(row["x_r"]) for row in rows], table["x_r"])
 
+    def test_names_without_rows(self):
+        table = Table.of("# key: 1\na\tb\n")
+        self.assertEqual((list(table.columns), len(table)), (["a", "b"], 0))
+
     def test_titles_that_look_like_something_else(self):
         """Keys, markup, LaTeX, gnuplot escapes, marks that turn the text around, and 60,000 characters: all are text. Would catch
         a title that becomes structure in a table, in JSON or in a figure."""
