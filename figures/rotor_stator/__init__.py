@@ -35,12 +35,12 @@ def explore():
     """The words that run it: EXPLORE of the environment ("apptainer exec rotor.sif
     explore" has four), the program of the clone, of the installation, or of the PATH."""
     here, given = Path(__file__).resolve(), os.environ.get("EXPLORE")
+    if given and not Path(given).is_file():
+        return shlex.split(given)
     for file in (given, here.parents[2] / "build/explore", here.parents[4] / "bin/explore",
                  shutil.which("explore")):
         if file and Path(file).is_file():
             return [str(file)]
-        if file and file == given:
-            return shlex.split(given)
     raise FileNotFoundError("explore: not built, not installed; EXPLORE names it")
 
 

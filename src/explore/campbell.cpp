@@ -82,9 +82,7 @@ Exploration explore_campbell(const CampbellRequest& request)
   table.note(
       "row bearing: mean stiffness xx, xy, yy [N/m] of contact and elements beside it, "
       "at --from; 0: no contact at rest");
-  const auto is_damped = [](const Bearing& one) { return one.damping > 0; };
-  if (std::ranges::any_of(bearings, is_damped))
-    table.note("damping of the contact is left out");
+  if (leaves_damping_out(parameters)) table.note("damping of the contact is left out");
   std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
   for (std::size_t number = 0; const Bearing& bearing : bearings) {
     const double value = passages_per_turn(bearing);

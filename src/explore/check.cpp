@@ -180,8 +180,7 @@ Exploration explore_check(const CheckRequest& request)
     table.note(
         "modes at rest; those of a turning rotor, and where the balls meet them: "
         "campbell --critical");
-  const auto is_damped = [](const Bearing& one) { return one.damping > 0; };
-  if (std::ranges::any_of(bearings_of(machine), is_damped))
+  if (leaves_damping_out(machine))
     table.note("damping of the contact is not in the modes");
   if (!machine.grounds.empty())
     table.note("f_s, f_r, contact_loss: of machines without elements to the ground");

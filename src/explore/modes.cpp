@@ -30,6 +30,12 @@ Eigen::MatrixXd cholesky(const Eigen::MatrixXd& a)
 
 }  // namespace
 
+bool leaves_damping_out(const Parameters& parameters)
+{
+  return std::ranges::any_of(bearings_of(parameters),
+                             [](const Bearing& one) { return one.damping > 0; });
+}
+
 LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget& budget,
                              double speed)
     : parameters_(parameters), speed_(speed), first_(parameters.stator.rigid ? 2 : 0),

@@ -35,6 +35,9 @@ struct Mode {
   double residual;  ///< relative change of stiffness with which it would be exact [-]
 };
 
+/** Whether the contact of a bearing has damping, which no mode has. */
+bool leaves_damping_out(const Parameters& parameters);
+
 class LinearMachine {
 public:
   /** With what stands beside the balls at a speed [Hz]. Throws NoSolution where the

@@ -103,12 +103,12 @@ std::map<std::size_t, std::vector<Cell>> rows_to_resume(const Sweep& sweep)
       cells.emplace_back(*number);
     }
     const auto is_next = [&](double speed) {
-      return !cells.empty() && Cell(speed).text() == cells.front().text();
+      return Cell(speed).text() == cells.front().text();
     };
     const auto rest = std::span(sweep.speeds).subspan(next);
-    const auto found = std::ranges::find_if(rest, is_next);
-    if (cells.size() != sweep.table.printed() || found == rest.end())
-      throw BadInput("holds other points");
+    const bool is_whole = cells.size() == sweep.table.printed();
+    const auto found = is_whole ? std::ranges::find_if(rest, is_next) : rest.end();
+    if (found == rest.end()) throw BadInput("holds other points");
     next += static_cast<std::size_t>(found - rest.begin());
     known[next++] = std::move(cells);
   };
